@@ -250,13 +250,15 @@ def _centre(member: Member, words: Words) -> str:
     return f"{named}({x}; {y})"
 
 
-def _places(material: Material) -> Iterator[Table]:
+def _places(material: Material) -> Iterator[Block]:
     """Yield fixed points and guides."""
     words, linkage = material.words, material.machine.drawn
-    rows = [(name, words.shown("point_x", x), words.shown("point_y", y)) for name, (x, y) in linkage.ground.items()]
+    places = [
+        f"{name} ({words.shown('point_x', x)}; {words.shown('point_y', y)})" for name, (x, y) in linkage.ground.items()
+    ]
     axes = (words.titled("point_x"), words.titled("point_y"))
-    if rows:
-        yield words.table("pivots", ("point", *axes), rows, "crr")
+    if places:
+        yield words.paragraph("fixed_points", unit=words.unit("point_x"), points=", ".join(places))
     lines = [
         (
             link_label(name, words.language), words.part(guide.link) if guide.link else words.term("ground"),

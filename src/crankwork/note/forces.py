@@ -8,6 +8,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.force_plans import force_plans
+from crankwork.analysis.input_loads import stated_loads
 from crankwork.analysis.mechanism import torque_by_routes
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.vector_polygons import worked_position
@@ -35,9 +36,10 @@ from crankwork.note.parts import (
     lacks,
     works,
 )
+from crankwork.note.readings import ROUNDING
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
 from crankwork.note.vector_equations import vector_box
-from crankwork.report.display import link_numbers
+from crankwork.report.display import key_unit, link_numbers
 from crankwork.report.forces import force_symbol
 from crankwork.report.notices import skipped_figure_notes
 from crankwork.report.tables import any_nonzero
@@ -57,6 +59,8 @@ _INERTIA = (
     "piston_transfer_1", "piston_transfer_2", "piston_acceleration", "inertia_acceleration", "inertia_force",
     "rotating_inertia_force",
 )  # fmt: skip
+# share of the largest force below which weights may be left out
+_NOTABLE = 0.1
 # decimals of the table of forces that Vietnamese notes print
 _VIETNAMESE = {"gas_force": 5, "inertia_force": 6, "piston_force": 6}
 
@@ -101,6 +105,32 @@ def _undrawn(material: Material) -> Iterator[Block]:
         yield Paragraph((f"{notice[0].upper()}{notice[1:]}.",))
 
 
+def _sizes(material: Material) -> Iterator[Block]:
+    """Yield how weights and inertia compare with the force of the process, and which of them rules."""
+    words, machine, results = material.words, material.machine, material.results
+    weight = results.method.gravity * sum(body.mass for body in machine.mechanism.bodies)
+    inertia, loads = results.summary.get("shaking_force_max", 0.0), stated_loads(machine)
+    if not weight or not inertia or machine.chambers:
+        return
+    process = max((load.amounts["force"][0] or 0.0 for load in loads if load.kind == "slider"), default=0.0)
+    if process == 0.0 and any(load.kind != "weight" for load in loads):
+        # what other loads come to is not stated as a force
+        return
+    force = {name: words.amount(value, key_unit("joint_force"), digits=4) for name, value in
+             (("weight", weight), ("inertia", inertia), ("force", process))}  # fmt: skip
+    load = words.phrase("sizes_load", force=force.pop("force")) if process else ""
+    sentences = words.sentence("sizes", load=load, weight=force["weight"], inertia=force["inertia"])
+    sizes = {"load": process, "inertia": inertia, "weight": weight}
+    if any(load.kind == "weight" for load in loads):
+        sentences += (" ", *words.sentence(f"ruled_by_{max(sizes, key=sizes.__getitem__)}"))
+    elif weight > _NOTABLE * max(process, inertia):
+        share = words.number(100.0 * weight / max(process, inertia), digits=2)
+        sentences += (" ", *words.sentence("weight_left_out", share=share))
+    else:
+        sentences += (" ", *words.sentence("ruled_by_load" if process > inertia else "ruled_by_inertia"))
+    yield Paragraph(sentences)
+
+
 def _lever(material: Material) -> Iterator[Block]:
     """Yield the balancing torque by five methods at every position, with their largest difference."""
     words = material.words
@@ -110,8 +140,11 @@ def _lever(material: Material) -> Iterator[Block]:
     if not any_nonzero(of_routes, printed):
         # differences of rounding noise mean nothing
         routes, gaps = {name: printed[key] for name, key in zip(routes, of_routes, strict=True)}, np.zeros_like(gaps)
-    largest = words.number(100.0 * float(np.max(gaps, initial=0.0)), digits=2)
-    yield words.paragraph("lever", source=Citation(_WORK), difference=largest)
+    largest = float(np.max(gaps, initial=0.0))
+    agreement = words.sentence("routes_agree")
+    if material.full or largest > ROUNDING:
+        agreement = words.sentence("routes_differ", difference=words.number(100.0 * largest, digits=2))
+    yield Paragraph((*words.sentence("lever", source=Citation(_WORK)), " ", *agreement))
     if not material.full:
         return
     shown = [_route(name, values, material) for name, values in routes.items()]
@@ -134,7 +167,7 @@ def _equilibrium(material: Material) -> Iterator[Block]:
         key = "drawing.links" if len(plan.links) > 1 else "drawing.link"
         head = translate(key, words.language, links=", ".join(str(numbers[link]) for link in plan.links))
         for force in plan.forces:
-            name = force_symbol(force, numbers, words.language).strip("$")
+            name = force_symbol(force, numbers, words.language).strip("$").replace(" ", ",")
             # of a guide the line of action is known
             known = 2 if force.kind == "load" or force.name in solved else 1 if force.kind == "guide" else 0
             parts += [*([Sign("+")] if parts else []), vector_box(name, known, words)]
@@ -205,7 +238,7 @@ SECTIONS = (
         Head("reactions", 2), Text("reactions"), _equilibrium,
         When(either(full, lacks(_has_polygons)), (At("joint_forces"), Lines("joint_forces", first=True))),
         Places("reactions", _IN_JOINTS, "reactions", filled=True),
-        Shown(("process_force", "joint_forces", "force_plans")), _undrawn,
+        Shown(("process_force", "joint_forces", "force_plans")), _undrawn, _sizes,
         Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),
     ), _is_loaded),
 )  # fmt: skip

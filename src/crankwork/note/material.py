@@ -61,7 +61,7 @@ ESSENTIAL = frozenset((
     "stroke_work", "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
 # height of the figures of a linkage over that elsewhere
-_LOWER = 0.7
+_LOWER = 0.62
 # significant digits of the values of a note that does not show all
 _DIGITS = 4
 # sentences that refer to one of a kind, and to several
@@ -107,6 +107,7 @@ class Material:
     results: Results  # A crank gear as an engine of one cylinder
     options: NoteOptions  # Language and what else is chosen
     has_engine: bool = True  # Whether the machine says what engine it is, and not only its crank gear is known
+    plan_difference: float | None = None  # The largest of what was read on plans, once they stand in the note
     _shown: set[tuple[object, ...]] = field(default_factory=set)
     _shown_figures: set[str] = field(default_factory=set)
     _keys: set[str] = field(default_factory=set)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from crankwork.note.document import Block, Citation, Reference, Run, Runs, Table
 from crankwork.note.material import Material
-from crankwork.note.tables import angle_table, listing_table, tabulated
+from crankwork.note.tables import angle_table, distinct_columns, listing_table, tabulated
 from crankwork.note.wording import named
 
 Condition = Callable[[Material], bool]
@@ -136,7 +136,9 @@ class Places:
             keys = list(self.kinds(material))
         else:
             keys = material.nonzero(*self.kinds) if self.filled else named(material.columns, *self.kinds)
-        return tabulated(material, self.caption, keys, self.label)
+        kept, sentences = distinct_columns(material, keys)
+        yield from sentences
+        yield from tabulated(material, self.caption, kept, self.label)
 
 
 @dataclass(frozen=True)
@@ -239,14 +241,14 @@ def lacks(condition: Condition) -> Condition:
     return lambda material: not condition(material)
 
 
-def amount(key: str, unit: str, digits: int = 6) -> Value:
+def amount(key: str, unit: str) -> Value:
     """Return a single value with its unit, to be put into a sentence."""
-    return lambda material: material.words.amount(material.summary[key], unit, digits=digits)
+    return lambda material: material.words.amount(material.summary[key], unit, digits=material.digits)
 
 
 def number(key: str) -> Value:
     """Return a single value without a unit, to be put into a sentence."""
-    return lambda material: material.words.number(material.summary[key])
+    return lambda material: material.words.number(material.summary[key], digits=material.digits)
 
 
 def written(parts: Iterable[Part], material: Material) -> Iterator[Block]:

@@ -127,7 +127,7 @@ def _limits(material: Material) -> Table:
 
 def _value(material: Material, key: str) -> str:
     summary = material.summary
-    return material.words.number(displayed(key, summary[key])) if key in summary else _NONE
+    return material.words.number(displayed(key, summary[key]), digits=material.digits) if key in summary else _NONE
 
 
 def _unit(material: Material, key: str) -> str:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crankwork.note.document import Paragraph
 from crankwork.quantities.key import key_of
+from crankwork.quantities.quantity import own_name
 from crankwork.report.display import key_unit, row_name
 
 if TYPE_CHECKING:
-    from crankwork.note.document import Paragraph
     from crankwork.note.material import Material
 
 # kind of figure: the single values that its sentence tells, of which each must be known
@@ -31,6 +33,10 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
     "crankpin_bearing": ("crankpin_load_max", "mean_crankpin_load"),
     "evenness": ("flywheel_inertia", "speed_fluctuation"),
 }
+# residuals and differences below this share are those of the computer's arithmetic
+ROUNDING = 1e-9
+# vectors of plans that are long enough to be read well [mm]
+LEGIBLE = 10.0
 # the sum of a force along the axis of a cylinder
 _PARTS = ("gas_force", "inertia_force")
 
@@ -89,7 +95,7 @@ def _of_joints(material: Material) -> Paragraph | None:
         return None
     return words.paragraph(
         "reads_joint_forces",
-        name=key_of(key).owner,
+        name=own_name("joint_force", key_of(key).owner),
         value=words.amount(forces[key], key_unit(key), digits=4),
         angle=words.amount(angle, "deg", digits=4),
     )
@@ -115,6 +121,54 @@ def concluded(material: Material) -> Iterator[Paragraph]:
         values = {"order": order, "value": words.amount(free[order], key_unit("free_force"), digits=4)} if order else {}
         sentences.append(words.paragraph("reads_free" if order else "reads_balanced", **values))
     yield from (paragraph for paragraph in sentences if paragraph is not None)
+
+
+def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
+    """Yield what the results of a linkage mean, in a few sentences."""
+    words, summary, checks = material.words, material.summary, material.results.checks
+    moved = _of_output(material)
+    if moved is not None:
+        yield moved
+    yield from (read for read in map(partial(reading, material=material), ("joint_forces", "torques")) if read)
+    if "mean_torque" in summary and "shaft_power" in summary and summary["shaft_power"] > 0:
+        amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in ("mean_torque", "shaft_power")}
+        yield words.paragraph("reads_power", **amounts)
+    elif "dynamic_torque_max" in summary and "static_torque_max" not in summary and not words.is_partial:
+        yield words.paragraph("reads_idle")
+    wheel, wanted = _known_flywheel(summary), material.machine.drive.fluctuation or summary.get("speed_fluctuation")
+    if wheel and wanted:
+        shown = words.amount(summary[wheel], key_unit(wheel), digits=4)
+        yield words.paragraph("reads_evenness", flywheel_inertia=shown, speed_fluctuation=words.number(wanted))
+    if checks and max(checks.values()) < ROUNDING:
+        agreement = words.sentence("reads_agreement")
+        if material.plan_difference is not None:
+            share = words.number(100.0 * material.plan_difference, digits=2)
+            agreement += (" ", *words.sentence("reads_plans", share=share, length=words.number(LEGIBLE)))
+        yield Paragraph(agreement)
+
+
+def _known_flywheel(summary: Mapping[str, float]) -> str:
+    return next((key for key in ("flywheel_inertia", "flywheel_inertia.exact") if summary.get(key, 0.0) > 0), "")
+
+
+def _of_output(material: Material) -> Paragraph | None:
+    """Return the sentence on the slider that travels farthest, or on the link that turns fastest without one."""
+    words, summary = material.words, material.summary
+    for kind, travel in (("slider", "slider_stroke"), ("link_angular", "link_swing")):
+        reached = {key_of(key).owner for key in summary if key_of(key).quantity == f"{kind}_velocity_max"}
+        ways = {key_of(key).owner: value for key, value in summary.items() if key_of(key).quantity == travel}
+        if not reached & ways.keys():
+            continue
+        name = max(reached & ways.keys(), key=ways.__getitem__)
+        values = {"name": words.part(name), "stroke": words.amount(ways[name], key_unit(travel), digits=4)}
+        for noun in ("velocity", "acceleration"):
+            ends = [f"{kind}_{noun}_{end}" for end in ("max", "min")]
+            end = max(ends, key=lambda key: abs(summary[f"{key}.{name}"]))
+            values[noun] = words.amount(abs(summary[f"{end}.{name}"]), key_unit(end), digits=4)
+            over, unit = ("time", "s") if words.period else ("angle", "deg")
+            values[f"{noun}_angle"] = words.amount(summary[f"{end}_{over}.{name}"], unit, digits=4)
+        return words.paragraph("reads_slider" if kind == "slider" else "reads_rocker", **values)
+    return None
 
 
 def _of_mains(material: Material) -> Paragraph | None:

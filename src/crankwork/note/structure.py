@@ -13,8 +13,11 @@ from crankwork.mechanism.linkage import GROUND
 from crankwork.note.document import Block, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import Section, drawn
+from crankwork.note.tables import folded
 from crankwork.report.display import link_label
 
+# joints that stand below one another
+_MOST_PAIRS = 6
 _ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
@@ -87,7 +90,7 @@ def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     if isinstance(driver, Cylinder):
         inside = "–".join(str(links.index(name)) for name in (driver.link, rod_name(driver.link)))
         rows.append((str(len(rows) + 1), link_label(driver.link, words.language), inside, words.term("sliding")))
-    return words.table("pairs", ("number", "pair", "between", "kind"), rows, "cccc")
+    return folded(words.table("pairs", ("number", "pair", "between", "kind"), rows, "cccc"), most=2, long=_MOST_PAIRS)
 
 
 SECTIONS = (Section("structure", (_structure,), drawn),)

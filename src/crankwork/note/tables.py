@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from crankwork.analysis import Array
 from crankwork.locale import has_text
-from crankwork.note.document import Cell, Math, Runs, Table
+from crankwork.note.document import Block, Cell, Math, Run, Runs, Table
 from crankwork.note.material import Material
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
@@ -180,7 +181,30 @@ def tabulated(
     columns = [
         quantity_column(material, item, material.columns[item]) if isinstance(item, str) else item for item in keys
     ]
-    return position_tables(caption, material.positions, columns, material.words, first=material.first, label=label)
+    tables = position_tables(caption, material.positions, columns, material.words, first=material.first, label=label)
+    # a narrow one takes half the height
+    return tables if material.full else map(partial(folded, most=2, long=_STEPS), tables)
+
+
+def distinct_columns(material: Material, keys: Sequence[str]) -> tuple[list[str], list[Block]]:
+    """Return the columns that neither are constant nor repeat another one, and the sentence that says what does."""
+    words, kept, equal = material.words, list[str](), dict[str, list[Run]]()
+    for key in () if material.full else keys:
+        values = material.columns[key]
+        limit = _NOISE * float(np.max(np.abs(values), initial=0.0))
+        comparable = [other for other in kept if key_unit(other) == key_unit(key)]
+        first = next((other for other in comparable if np.allclose(values, material.columns[other], 0.0, limit)), "")
+        if first:
+            equal.setdefault(first, [Math(words.symbol(first))]).extend((" = ", Math(words.symbol(key))))
+        elif np.allclose(values, values[0], 0.0, limit):
+            value = words.shown(key, float(values[0]), digits=material.digits)
+            equal[key] = [Math(words.symbol(key)), f" = {value}\u00a0{words.unit(key)}".rstrip()]
+        else:
+            kept.append(key)
+    if not equal or not kept:
+        return list(keys), []
+    shown = [run for index, part in enumerate(equal.values()) for run in ([", "] if index else []) + part]
+    return kept, [words.paragraph("same_columns", equal=tuple(shown))]
 
 
 def position_tables(

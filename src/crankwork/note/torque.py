@@ -82,13 +82,15 @@ def _losses(material: Material) -> Iterator[Block]:
     if drive.efficiency == 1:
         yield words.paragraph("no_losses")
         return
-    yield words.paragraph("efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency))
+    yield words.paragraph(
+        "efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency, digits=material.digits)
+    )
     # what the chain comes to before it is rounded is the efficiency as well
     marks = {"efficiency.exact": words.symbol("efficiency")}
     lines = material.lines("efficiency")
     yield from material.worked(lines if material.full else lines[-1:], marks)
     if drive.exact_efficiency is not None:
-        used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency)
+        used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency, digits=material.digits)
         yield words.paragraph("efficiency_rounded", used=used, exact=exact)
 
 

@@ -40,6 +40,7 @@ from crankwork.note.layout import (
     row,
 )
 from crankwork.note.material import Material
+from crankwork.note.readings import LEGIBLE
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.plans import Scales
 from crankwork.note.symbols import number_box, symbol_box
@@ -104,6 +105,8 @@ def vector_plans(material: Material) -> Iterator[Block]:
         )
         material.leave_out("velocity_plan", "acceleration_plan")
     compared = material.full or material.order != "en"
+    if compared:
+        material.plan_difference = _largest_difference(exact, drawn)
     tables = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
     values: dict[str, Run | Runs] = {kind: Reference(table.label) for kind, table in zip(_KINDS, tables, strict=True)}
     mm = unit_name("mm", words.language)
@@ -230,12 +233,25 @@ def plan_vectors(plan: ConstructedPlan) -> dict[tuple[str, str], PlanVector]:
     return {(part.name, part.kind): part for part in (*parts, *plan.similar)}
 
 
+def _largest_difference(exact: Sequence[ConstructedPlan], drawn: Sequence[ConstructedPlan]) -> float:
+    """Return the largest difference of a vector that is long enough, as a share of it."""
+    pairs = [
+        (abs(part.drawn), read_length(plan_vectors(constructed)[key]))
+        for plan, constructed in zip(exact, drawn, strict=True)
+        for key, part in plan_vectors(plan).items()
+    ]
+    return max((abs(read / length - 1.0) for length, read in pairs if length > LEGIBLE), default=0.0)
+
+
+def read_length(vector: PlanVector) -> float:
+    """Return the length of a vector as it is read on paper. [mm]"""
+    return round(abs(vector.drawn) / READING) * READING
+
+
 def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, scale: float, words: Words) -> Table:
     """Return the vectors of a plan and the rates of the links: exact, and beside them as they are read if drawn."""
     vectors, rows = plan_vectors(plan), list[tuple[Cell, ...]]()
-    read = (
-        {key: round(abs(part.drawn) / READING) * READING for key, part in plan_vectors(drawn).items()} if drawn else {}
-    )
+    read = {key: read_length(part) for key, part in plan_vectors(drawn).items()} if drawn else {}
     most = max(abs(part.drawn) for part in vectors.values())
 
     def cells(exact: float, shown: float, unit: str, *, legible: bool = True) -> tuple[str, ...]:

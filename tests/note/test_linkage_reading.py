@@ -1,0 +1,116 @@
+"""What the short note of a linkage says beside its numbers: what repeats, how large forces are, what follows."""
+
+import re
+
+import numpy as np
+import pytest
+
+from crankwork.note.document import Equation, Heading, Paragraph
+from crankwork.note.layout import Digits, Fence, Fraction, Root, Row, Script, Sign, Upright
+from each import for_each
+from notes import blocks, note, printed, results, tables, words
+
+NUMBER = re.compile(r"−?\d+(?:,\d+)?")
+
+
+def short(name):
+    return note(name, "ru", full=False, figures=True)
+
+
+def numbers(text):
+    return [float(one.replace("−", "-").replace(",", ".")) for one in NUMBER.findall(text)]
+
+
+def computed(box) -> str:
+    """Return what boxes of numbers say as an expression of Python."""
+    match box:
+        case Row(parts):
+            return "".join(map(computed, parts))
+        case Fraction(top, bottom):
+            return f"({computed(top)})/({computed(bottom)})"
+        case Root(inside):
+            return f"({computed(inside)})**0.5"
+        case Fence(inside):
+            return f"({computed(inside)})"
+        case Script(base, None, above):
+            return f"({computed(base)})**{computed(above)}"
+        case Sign(text, _):
+            return {"−": "-", "=": "==", "·": "*"}.get(text, text)
+        case Digits(text):
+            return text.replace(",", ".")
+    return box.text if isinstance(box, Upright) and box.text.isdigit() else ""
+
+
+def sentences(name, word):
+    """Return the paragraphs in which a word stands."""
+    paragraphs = blocks(short(name), Paragraph)
+    found = [
+        "".join(getattr(run, "content", run if isinstance(run, str) else "") for run in one.runs) for one in paragraphs
+    ]
+    return [text for text in found if word in text]
+
+
+def conclusion(name):
+    found = short(name).blocks
+    start = next(at for at, block in enumerate(found) if block == Heading(1, "Заключение", numbered=False))
+    return ["".join(getattr(run, "content", run) for run in item) for item in found[start + 1].items]
+
+
+def test_no_column_of_a_table_over_positions_is_constant_or_another_one():
+    for label in ("reactions", "torque"):
+        rows = tables(short("press-geometry"))[label].rows
+        columns = list(zip(*(row[2:] for row in rows), strict=True))
+        assert len(columns) > 1
+        assert len({*columns}) == len(columns)
+        assert all(len({*values}) > 1 for values in columns)
+    said = sentences("press-geometry", "Во всех положениях")
+    assert any("R_O = R_A" in text for text in said), said
+    assert any("M_дин = M_ур" in text for text in said), said
+    assert any("v_A = 0,7325" in text for text in said), said
+
+
+def test_the_conclusion_states_results_with_their_positions():
+    summary = results("press-geometry").summary
+    moved, loaded, torque, idle, agreement = conclusion("press-geometry")
+    degrees = {
+        key: np.degrees(summary[f"{key}_angle.punch"]) for key in ("slider_velocity_min", "slider_acceleration_min")
+    }
+    expected = [5, 1e3 * summary["slider_stroke.punch"], -summary["slider_velocity_min.punch"],
+                degrees["slider_velocity_min"], -summary["slider_acceleration_min.punch"],
+                degrees["slider_acceleration_min"]]  # fmt: skip
+    assert numbers(moved) == pytest.approx(expected, rel=5e-4)
+    assert numbers(loaded) == pytest.approx(
+        [summary["joint_force_max.O"], np.degrees(summary["joint_force_max_angle.O"])], rel=5e-4
+    )
+    assert numbers(torque)[0] == pytest.approx(summary["driving_torque_max"], rel=5e-4)
+    assert "равен нулю" in idle
+    rows = [row for kind in ("velocities", "accelerations")
+            for row in tables(short("press-geometry"))[f"compared_{kind}"].rows if row[1] != "–"]  # fmt: skip
+    shares = [abs(numbers(row[6])[0]) for row in rows if numbers(row[2])[0] > 10.5]
+    assert numbers(agreement)[0] == pytest.approx(max(shares), abs=0.06)
+
+
+@for_each("name", ["press-geometry", "knuckle-press"])
+def test_rounding_of_the_computer_is_no_number_of_a_short_note(name):
+    assert [text for text in (*words(short(name)), *printed(short(name))) if re.search("10⁻¹[¹²³⁴⁵⁶]", text)] == []
+
+
+@for_each("name", ["press-geometry", "knuckle-press", "four-bar"])
+def test_the_counterweight_can_be_followed_with_a_calculator(name):
+    (shown,) = [
+        block for block in blocks(short(name), Equation) if getattr(block.step, "key", "") == "counterweight_moment"
+    ]
+    left, value = computed(shown.printed.lines[1]).strip("=").split("==")
+    assert eval(left) == pytest.approx(float(value), rel=1e-3)  # noqa: S307 - numbers of a printed line
+    assert float(value) == pytest.approx(results(name).summary["counterweight_moment"], rel=1e-3)
+
+
+def test_weights_are_compared_with_the_other_forces():
+    mass = 255.1 + 153.1 + 81.6 + 102
+    (said,) = sentences("press-geometry", "вес звеньев")
+    assert numbers(said)[:2] == pytest.approx(
+        [results("press-geometry").summary["shaking_force_max"], mass * 9.80665], rel=5e-4
+    )
+    assert "не учтены" in said
+    (said,) = sentences("knuckle-press", "вес звеньев")
+    assert "сила полезного сопротивления до 200" in said
