@@ -34,11 +34,10 @@ from crankwork.formula.expression import Value, formula
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, is_traced, named
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.equal_motion import Follower
+from crankwork.kinematics.dyads import BEYOND
 from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.traced_change_points import BEYOND
-from crankwork.kinematics.traced_motion import interpolant_of
+from crankwork.kinematics.traced_motion import Follower, interpolant_of
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.change_point import ChangePointFit, ChangePointPassage, Polynomial
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, LinkMotor

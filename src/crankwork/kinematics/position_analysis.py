@@ -22,6 +22,8 @@ from crankwork.kinematics.dyads import (
     DrivenAngle,
     LinkMotion,
     Through,
+    branch_sign,
+    change_point_replacement,
     crank_motion,
     fixed_guide,
     fixed_point,
@@ -43,7 +45,6 @@ from crankwork.kinematics.loop_closure import ChainBoundary, is_stretched
 from crankwork.kinematics.motion_laws import extent, law_at
 from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
-from crankwork.kinematics.traced_change_points import branch_sign, change_point_replacement
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.change_point import ChangePointPassage

@@ -5,16 +5,19 @@ Gas exchange is simplified: constant pressures of exhaust and intake, with smoot
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.formula.expression import Value
-from crankwork.formula.traced_value import TracedValue, to_number
+from crankwork.formula.traced_value import Piecewise, TracedAngle, TracedValue, to_number
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.indicator import Segment
-from crankwork.loads.monotone import hermite, hermite_slope
+from crankwork.loads.gas import polytropic_pressure
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Law, Piece, Segment
+from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+from crankwork.loads.traced_diagram import column, curve_laws
 
 _ANGLE_TOLERANCE = 1e-9
 
@@ -105,3 +108,187 @@ def within_cycle(segments: Sequence[Segment], cycle: float) -> tuple[Segment, ..
 def _moved(segment: Segment, shift: float) -> Segment:
     start, end = float(segment.start + shift), float(segment.end + shift)
     return replace(segment, start=start, end=end, knots=segment.knots + shift)
+
+
+# prefix of the names of points that only shape a curve
+AUXILIARY = "~"
+_OFFSET = 0.2
+_ANGLE_TOLERANCE = 1e-6
+
+
+class NamedPoint(NamedTuple):
+    """A point by name: crank angle [deg], pressure [Pa]."""
+
+    name: str
+    angle: Value
+    pressure: Value
+
+
+@dataclass(frozen=True)
+class DiagramPart:
+    """A piece through points; a curve has slopes at its ends [Pa/deg], a polytrope an exponent and a reference."""
+
+    law: Law
+    points: tuple[NamedPoint, ...]
+    slopes: tuple[Value, Value] = (0.0, 0.0)
+    exponent: Value | None = None
+    reference: str | None = None
+
+
+def without_auxiliary(diagram: IndicatorDiagram) -> IndicatorDiagram:
+    """Return a diagram without the names of points that only shape its curves."""
+    named = {name: position for name, position in diagram.named.items() if not name.startswith(AUXILIARY)}
+    return IndicatorDiagram(diagram.segments, named, diagram.jumps)
+
+
+def to_points_and_pieces(
+    parts: Sequence[DiagramPart], cycle: float, references: dict[str, DiagramPoint]
+) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
+    """Return points and pieces of parts that together make one cycle, from 0 to its end.
+
+    `parts`: in order of the crank angle, beginning anywhere; parts without length are left out.
+    """
+    points, pieces = dict(references), []
+    for part in inside_cycle(parts, cycle):
+        knots = _shaped(part) if part.law == "rounded" else part.points
+        names = tuple(_placed(points, knot) for knot in knots)
+        pieces.append(Piece(part.law, names, part.exponent, part.reference))
+    first, last = pieces[0].points[0], pieces[-1].points[-1]
+    before = points[last].pressure
+    if before is not None and points[first].pressure != before:
+        # a vertical line of no length closes the diagram where the cycle begins
+        foot = _placed(points, NamedPoint(f"{AUXILIARY}{last}", 0.0, before))
+        pieces.insert(0, Piece("rounded", (foot, first)))
+    return points, tuple(pieces)
+
+
+def inside_cycle(parts: Sequence[DiagramPart], cycle: float) -> list[DiagramPart]:
+    """Return the parts with a length, from 0 to the end of the cycle."""
+    inside = [piece for part in parts for piece in _within(part, cycle)]
+    return sorted(inside, key=lambda part: to_number(part.points[0].angle))
+
+
+def traced_pressure_of_parts(
+    parts: Sequence[DiagramPart],
+    cycle: float,
+    volume: TracedValue,
+    references: Mapping[str, tuple[TracedValue, TracedValue]],
+) -> TracedValue:
+    """Return the pressure of traced parts as a piecewise column; each cubic between two knots is a piece. [Pa]
+
+    `references`: pressure and volume of the states that polytropes pass through.
+    """
+    degrees, ends, laws = TracedAngle().degrees, list[Value](), list[TracedValue]()
+    for part in inside_cycle(parts, cycle):
+        if part.law == "rounded":
+            knots = _shaped(part)
+            for end, law in curve_laws([knot.angle for knot in knots], [knot.pressure for knot in knots], degrees):
+                ends.append(end)
+                laws.append(law)
+            continue
+        ends.append(part.points[-1].angle)
+        laws.append(part.points[0].pressure if part.law == "constant" else _on_polytrope(part, references, volume))
+    return TracedValue(Piecewise([*ends[:-1], cycle], tuple(laws)), "diagram_pressure")
+
+
+def _on_polytrope(
+    part: DiagramPart, references: Mapping[str, tuple[TracedValue, TracedValue]], volume: TracedValue
+) -> TracedValue:
+    law: TracedValue = polytropic_pressure(*references[part.reference or ""], volume, part.exponent)
+    return law
+
+
+def _placed(points: dict[str, DiagramPoint], added: NamedPoint) -> str:
+    """Add a point and return its name, which is changed if another point has it already."""
+    name, number = added.name, 0
+    while name in points and not _is_same(points[name], added):
+        number += 1
+        name = f"{AUXILIARY}{added.name.removeprefix(AUXILIARY)}{number}"
+    points.setdefault(name, DiagramPoint(added.angle, added.pressure))
+    return name
+
+
+def _is_same(point: DiagramPoint, added: NamedPoint) -> bool:
+    if point.angle is None or point.pressure is None or point.volume is not None:
+        return False
+    is_near = abs(point.pressure - added.pressure) <= 1e-9 * abs(added.pressure)
+    return bool(is_near and abs(point.angle - added.angle) < _ANGLE_TOLERANCE)
+
+
+def _within(part: DiagramPart, cycle: float) -> list[DiagramPart]:
+    """Return a part shifted into the cycle, in two if it crosses its end."""
+    start, end = to_number(part.points[0].angle), to_number(part.points[-1].angle)
+    if end - start < _ANGLE_TOLERANCE:
+        return []
+    turn = cycle * float(np.floor((start + _ANGLE_TOLERANCE) / cycle))
+    if end <= turn + cycle + _ANGLE_TOLERANCE:
+        return [_moved(part, -turn, cycle)]
+    before, after = _halves(part, turn + cycle)
+    return [_moved(before, -turn, cycle), _moved(after, -turn - cycle, cycle)]
+
+
+def _moved(part: DiagramPart, shift: float, cycle: float) -> DiagramPart:
+    """Return a part shifted along the crank angle, with the ends of the cycle hit exactly."""
+    moved = [point._replace(angle=point.angle + shift) for point in part.points]
+    snapped = [
+        point._replace(angle=edge) if abs(to_number(point.angle) - edge) < _ANGLE_TOLERANCE else point
+        for point in moved
+        for edge in [0.0 if to_number(point.angle) < cycle / 2 else cycle]
+    ]
+    return DiagramPart(part.law, tuple(snapped), part.slopes, part.exponent, part.reference)
+
+
+def _halves(part: DiagramPart, cut: float) -> tuple[DiagramPart, DiagramPart]:
+    """Return the parts before and after a crank angle; the curve stays the same."""
+    before = tuple(point for point in part.points if to_number(point.angle) < cut - _ANGLE_TOLERANCE)
+    after = tuple(point for point in part.points if to_number(point.angle) > cut + _ANGLE_TOLERANCE)
+    at_cut = [point for point in part.points if abs(to_number(point.angle) - cut) <= _ANGLE_TOLERANCE]
+    slope: Value = 0.0
+    if part.law == "rounded":
+        knots = _shaped(part)
+        x, y = column([knot.angle for knot in knots]), column([knot.pressure for knot in knots])
+        curve, where = (x, y, monotone_slopes(x, y)), np.array([cut])
+        pressure, slope = hermite(*curve, where)[0], hermite_slope(*curve, where)[0]
+    else:
+        pressure = part.points[0].pressure
+    middle = at_cut[0] if at_cut else NamedPoint(f"{AUXILIARY}0", cut, pressure)
+    first = DiagramPart(part.law, (*before, middle), (part.slopes[0], slope), part.exponent, part.reference)
+    second = DiagramPart(part.law, (middle, *after), (slope, part.slopes[1]), part.exponent, part.reference)
+    return first, second
+
+
+def _shaped(part: DiagramPart) -> tuple[NamedPoint, ...]:
+    """Return the points of a curve with one more next to each end, which give it its end slopes."""
+    points = part.points
+    if len(points) == 2:
+        return _shaped_alone(points[0], points[1], part.slopes)
+    start = _slope_point(points[0], points[1], part.slopes[0])
+    end = _slope_point(points[-1], points[-2], part.slopes[1])
+    return (points[0], start, *points[1:-1], end, points[-1])
+
+
+def _slope_point(end: NamedPoint, inner: NamedPoint, slope: Value) -> NamedPoint:
+    """Return the point next to an end for which (2h0 + h1) d0 - h0 d1 = (h0 + h1) slope, with d1 the next chord."""
+    span = inner.angle - end.angle
+    near, far = _OFFSET * span, (1 - _OFFSET) * span
+    rise = inner.pressure - end.pressure
+    chord = (slope * span + near * rise / far) / (2 * near + far + near * near / far)
+    return NamedPoint(f"{AUXILIARY}{end.name}{inner.name}", end.angle + near, end.pressure + near * chord)
+
+
+def _shaped_alone(start: NamedPoint, end: NamedPoint, slopes: tuple[Value, Value]) -> tuple[NamedPoint, ...]:
+    """Return two points with one more next to each, for both end slopes at once."""
+    span, rise = end.angle - start.angle, end.pressure - start.pressure
+    near, far = _OFFSET, 1 - 2 * _OFFSET
+    # slopes of chords times the span: near (first + last) + far middle = rise, (2 near + far) first - near
+    # middle = (near + far) slope at the start, and so at the end
+    at_start, at_end = (slope * (near + far) * span / (2 * near + far) for slope in slopes)
+    spread = near / (2 * near + far)
+    middle = (rise - near * (at_start + at_end)) / (far + 2 * near * spread)
+    first, last = at_start + spread * middle, at_end + spread * middle
+    return (
+        start,
+        NamedPoint(f"{AUXILIARY}{start.name}{end.name}", start.angle + near * span, start.pressure + near * first),
+        NamedPoint(f"{AUXILIARY}{end.name}{start.name}", end.angle - near * span, end.pressure - near * last),
+        end,
+    )

@@ -23,10 +23,11 @@ from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Seg
 from crankwork.loads.traced_diagram import TracedVolume
 from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.calculated_cycle import Notice
-from crankwork.working_cycle.gas_exchange import clip_segment, from_before_zero
-from crankwork.working_cycle.rounded_pieces import (
+from crankwork.working_cycle.gas_exchange import (
     DiagramPart,
     NamedPoint,
+    clip_segment,
+    from_before_zero,
     to_points_and_pieces,
     traced_pressure_of_parts,
     without_auxiliary,
