@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from crankwork.formula.traced_value import Operators
+
 _OPERATIONS: dict[Callable[..., Any], str] = {
     operator.add: "add", operator.sub: "sub", operator.mul: "mul", operator.truediv: "div", operator.neg: "neg",
     operator.pow: "pow", np.add: "add", np.subtract: "sub", np.multiply: "mul", np.divide: "div", np.negative: "neg",
@@ -38,7 +40,7 @@ class LawEnd(NamedTuple):
     value: KernelValue | None = None
 
 
-class KernelValue:
+class KernelValue(Operators["KernelValue"]):
     """Node of the graph: an operation and its operands.
 
     `kind`: name of an operation, or constant, input, angle, pieces, delayed, moved or reduction, with its `detail`;
@@ -74,38 +76,8 @@ class KernelValue:
             operands = (*operands, 2.0)
         return self.graph.apply(_OPERATIONS[ufunc], *operands)
 
-    def __add__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("add", self, other)
-
-    def __radd__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("add", other, self)
-
-    def __sub__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("sub", self, other)
-
-    def __rsub__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("sub", other, self)
-
-    def __mul__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("mul", self, other)
-
-    def __rmul__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("mul", other, self)
-
-    def __truediv__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("div", self, other)
-
-    def __rtruediv__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("div", other, self)
-
-    def __pow__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("pow", self, other)
-
-    def __rpow__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("pow", other, self)
-
-    def __neg__(self) -> KernelValue:
-        return self.graph.apply("neg", self)
+    def _made(self, function: Callable[..., Any], *operands: Any) -> KernelValue:  # noqa: ANN401
+        return self.graph.apply(_OPERATIONS[function], *operands)
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.index}>"

@@ -7,7 +7,7 @@ heat goes to the walls, and the first law is integrated over the crank angle. Th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import ClassVar, NamedTuple
@@ -21,13 +21,10 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import (
-    DiagramPoint,
     IndicatorDiagram,
-    Piece,
     Segment,
     VolumeAt,
     quadrature,
-    solve_diagram,
 )
 from crankwork.loads.monotone import hermite
 from crankwork.loads.pressure import at_angle, traced_pressure
@@ -51,8 +48,16 @@ from crankwork.working_cycle.closed_gas import (
     woschni_coefficient,
     woschni_gas_speed,
 )
+from crankwork.working_cycle.diagram_parts import (
+    DiagramPart,
+    NamedPoint,
+    connecting_cubic,
+    constant_pressure,
+    diagram_of_parts,
+    from_before_zero,
+    within_cycle,
+)
 from crankwork.working_cycle.fuels import CycleError
-from crankwork.working_cycle.gas_exchange import connecting_cubic, constant_pressure, from_before_zero, within_cycle
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.rounding import (
     Rounding,
@@ -73,8 +78,6 @@ _STEP, _LEAST_STEPS, _DOUBLINGS = 0.5, 40, 5
 _AGREEMENT = 1e-9
 _FINE = 2001
 _RELATIVE, _ABSOLUTE = 1e-11, 1e-12
-Points = dict[str, DiagramPoint]
-_AngleOf = Callable[[float, float, float], float]
 
 
 @dataclass(frozen=True)
@@ -91,7 +94,7 @@ class CornerPressure:
         del volume_rate_at
         cycle = self.cycle
         # if corners are rounded, the sharp one is only looked at
-        sharp = partial(_sharp_diagram, cycle.corners, cycle.angle, volume_at, dead_centres)
+        sharp = partial(sharp_diagram, cycle.corners, cycle.angle, volume_at, dead_centres)
         notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
             return Calculated(sharp(), cycle.trace, notices, sharp)
@@ -119,18 +122,9 @@ class CornerPressure:
         theory = self.cycle.corners
         corners = theory._replace(p_z=theory.p_c, p_b=theory.p_a, n2=theory.n1, rho=absent("cut_off", 1.0))
         if self.timing is None:
-            return Calculated(_sharp_diagram(corners, self.cycle.angle, volume_at, dead_centres), {}, ())
+            return Calculated(sharp_diagram(corners, self.cycle.angle, volume_at, dead_centres), {}, ())
         diagram = motored_diagram(_numbers(corners), self.timing, self.rounding, volume_at, dead_centres)
         return Calculated(_with_traced_segments(diagram, corners), {}, ())
-
-
-def _sharp_diagram(
-    corners: Corners, angle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
-) -> IndicatorDiagram:
-    """Return the diagram of corners in a cylinder; `angle`: of the cycle. [deg]"""
-    points, pieces = theoretical_diagram(corners, angle, volume_at, dead_centres)
-    diagram = solve_diagram(points, pieces, angle, volume_at, dead_centres=dead_centres)
-    return _with_traced_segments(diagram, corners)
 
 
 def _theory(corners: Corners) -> dict[str, TracedValue]:
@@ -150,16 +144,11 @@ def _with_traced_segments(diagram: IndicatorDiagram, corners: Corners) -> Indica
 
     def with_inputs(segment: Segment) -> Segment:
         if segment.law == "polytropic":
-            origin = _ORIGINS.get(segment.origin, segment.origin)
-            return replace(segment, origin=origin, operands=lines[origin])
+            return replace(segment, operands=lines[segment.origin])
         inputs = constants.get(segment.pressures[0], ()) if segment.law == "constant" else ()
-        return replace(segment, places=(), operands=inputs)
+        return replace(segment, operands=inputs)
 
     return replace(diagram, segments=tuple(with_inputs(segment) for segment in diagram.segments))
-
-
-# names of the points of the calculation, by the reference states of polytropes in rounded diagrams
-_ORIGINS = {"~start": "a", "~burnt": "z"}
 
 
 @dataclass(frozen=True)
@@ -469,83 +458,57 @@ def _work_walls(pressure: TracedValue, worked: Calculation, factor: GasSpeedFact
     worked(wall_heat_rate, w=(math.pi * worked["rotational_speed"] / 30).named("speed"))
 
 
-def theoretical_diagram(
+def sharp_diagram(
     corners: Corners, cycle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
-) -> tuple[Points, tuple[Piece, ...]]:
-    """Return points and pieces of the theoretical diagram of a cylinder, absolute pressures.
+) -> IndicatorDiagram:
+    """Return the theoretical diagram of a cylinder, absolute pressures.
 
     Four strokes: r, d begin the intake, a ends it; c, z (z' before it if combustion continues at constant pressure), b,
-    e and r end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their closing. For
-    `loads.indicator.solve_diagram`. Source: kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
+    e and r' end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their closing. Source:
+    kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
     """
     top = dead_centres[0] % 360
     # a top dead centre just before 0 begins its cycle at the end of the previous one
     top = top + cycle - 360 if top > 180 else top
     bottom = top + (dead_centres[1] - dead_centres[0]) % 360
+    p_r, p_a, p_c, p_z, p_b, rho, *_ = (corner.value for corner in corners)
     clearance = float(volume_at(np.array([top]))[0])
 
     def angle_of(ratio: float, start: float, end: float) -> float:
         return _angle_of_volume(volume_at, ratio * clearance, start, end)
 
-    if cycle == 360:
-        points, pieces = _two_strokes(corners, top, bottom, angle_of)
+    firing = top + cycle - 360
+    if cycle == 720:
+        begins, opens, compressed = bottom, bottom + 360, "c"
+        first = NamedPoint("r", top, p_r)
+        exchange = [
+            _constant(NamedPoint("d", top, p_a), NamedPoint("a", bottom, p_a)),
+            _constant(NamedPoint("e", opens, p_r), NamedPoint("r'", top + 720, p_r)),
+        ]
     else:
-        points, pieces = _four_strokes(corners, top, bottom, angle_of)
-    return _from_zero(points, pieces, cycle)
-
-
-def _four_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
-    firing = top + 360
-    points = {
-        "r": DiagramPoint(top, corners.p_r.value),
-        "d": DiagramPoint(top, corners.p_a.value),
-        "a": DiagramPoint(bottom, corners.p_a.value, corners.V_a.value or None),
-        "b": DiagramPoint(bottom + 360, corners.p_b.value, corners.V_a.value or None),
-        "e": DiagramPoint(bottom + 360, corners.p_r.value),
-        "r'": DiagramPoint(top + 720, corners.p_r.value),
-    }
-    burning_points, burning = _burning(corners, firing, bottom + 360, angle_of)
-    pieces = [
-        Piece("rounded", ("r", "d")),
-        Piece("constant", ("d", "a")),
-        Piece("polytropic", ("a", "c"), corners.n1.value),
-        *burning,
-        Piece("rounded", ("b", "e")),
-        Piece("constant", ("e", "r'")),
+        opens = begins = bottom
+        if corners.psi.value:
+            opens = angle_of(corners.epsilon.value, top, bottom)
+            begins = angle_of(corners.epsilon.value, top + 360, bottom)
+        first, compressed = NamedPoint("c", top, p_c), "c'"
+        exchange = [_constant(NamedPoint("e", opens, p_a), NamedPoint("a", begins, p_a))]
+    z = NamedPoint("z", angle_of(rho, firing, opens) if rho > 1 else firing, p_z)
+    a, c = NamedPoint("a", begins, p_a), NamedPoint(compressed, top + 360, p_c)
+    parts = [
+        *exchange,
+        DiagramPart("polytropic", (a, c), exponent=corners.n1.value, reference="a"),
+        _constant(NamedPoint("z'", firing, p_z), z),
+        DiagramPart("polytropic", (z, NamedPoint("b", opens, p_b)), exponent=corners.n2.value, reference="z"),
     ]
-    return points | burning_points, pieces
+    of_states = volume_at(np.array([begins, z.angle])).tolist()
+    states = {"a": (p_a, corners.V_a.value or of_states[0]), "z": (p_z, of_states[1])}
+    diagram = diagram_of_parts(parts, cycle, volume_at, states)
+    named = {first.name: (first.angle, first.pressure), **diagram.named}
+    return _with_traced_segments(replace(diagram, named=named), corners)
 
 
-def _two_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
-    opens, shuts = bottom, bottom
-    if corners.psi.value:
-        opens = angle_of(corners.epsilon.value, top, bottom)
-        shuts = angle_of(corners.epsilon.value, top + 360, bottom)
-    points = {
-        "b": DiagramPoint(opens, corners.p_b.value),
-        "e": DiagramPoint(opens, corners.p_a.value),
-        "a": DiagramPoint(shuts, corners.p_a.value),
-        "c'": DiagramPoint(top + 360, corners.p_c.value),
-    }
-    burning_points, burning = _burning(corners, top, opens, angle_of)
-    pieces = [
-        *burning,
-        Piece("rounded", ("b", "e")),
-        Piece("constant", ("e", "a")),
-        Piece("polytropic", ("a", "c'"), corners.n1.value),
-    ]
-    return points | burning_points, pieces
-
-
-def _burning(corners: Corners, firing: float, end: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
-    """Return points and pieces from c over z to b."""
-    points = {"c": DiagramPoint(firing, corners.p_c.value), "z": DiagramPoint(firing, corners.p_z.value)}
-    pieces = [Piece("rounded", ("c", "z"))]
-    if corners.rho.value > 1:
-        points["z'"] = points["z"]
-        points["z"] = DiagramPoint(angle_of(corners.rho.value, firing, end), corners.p_z.value)
-        pieces = [Piece("rounded", ("c", "z'")), Piece("constant", ("z'", "z"))]
-    return points, [*pieces, Piece("polytropic", ("z", "b"), corners.n2.value)]
+def _constant(start: NamedPoint, end: NamedPoint) -> DiagramPart:
+    return DiagramPart("constant", (start, end))
 
 
 def _angle_of_volume(volume_at: VolumeAt, volume: float, small: float, large: float) -> float:
@@ -555,26 +518,3 @@ def _angle_of_volume(volume_at: VolumeAt, volume: float, small: float, large: fl
     if not ends[0] <= volume <= ends[1] * (1 + 1e-12):
         raise CycleError(ErrorMessage("volume_unreached", volume=volume * 1e6, least=ends[0] * 1e6, most=ends[1] * 1e6))
     return solve_monotone(volume_at, volume, low, high)
-
-
-def _from_zero(points: Points, pieces: list[Piece], cycle: float) -> tuple[Points, tuple[Piece, ...]]:
-    """Return the same diagram from 0 instead of from its first dead centre; the piece across the end is cut."""
-    before: list[Piece] = []
-    after: list[Piece] = []
-    moved = dict(points)
-    for piece in pieces:
-        first, last = piece.points[0], piece.points[-1]
-        start, end = (points[name].angle or 0.0 for name in (first, last))
-        if end <= cycle:
-            before.append(piece)
-        elif start >= cycle:
-            after.append(piece)
-        else:
-            pressure = points[first].pressure if piece.law == "constant" else None
-            moved |= {"end": DiagramPoint(cycle, pressure), "start": DiagramPoint(0.0, pressure)}
-            before.append(replace(piece, points=(first, "end")))
-            after.append(replace(piece, points=("start", last), reference=first if piece.exponent else None))
-    for name, point in points.items():
-        if (point.angle or 0.0) > cycle:
-            moved[name] = replace(point, angle=(point.angle or 0.0) - cycle)
-    return moved, (*after, *before)
