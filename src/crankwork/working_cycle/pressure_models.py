@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from crankwork.loads.indicator import (
     IndicatorDiagram,
     Segment,
     VolumeAt,
-    quadrature,
 )
 from crankwork.loads.monotone import hermite
 from crankwork.loads.pressure import at_angle, traced_pressure
@@ -73,7 +72,7 @@ from crankwork.working_cycle.usual_ranges import heat_notices
 _PROBES = (0.0, 67.0, 131.0, 213.0)
 # Solving takes most of a run, and a file is solved once to check it and once to analyse it: cached.
 _MAX_SOLUTIONS = 16
-_SOLUTIONS: dict[object, HeatReleaseResult] = {}
+_SOLUTIONS: dict[object, Calculated] = {}
 _STEP, _LEAST_STEPS, _DOUBLINGS = 0.5, 40, 5
 _AGREEMENT = 1e-9
 _FINE = 2001
@@ -161,18 +160,7 @@ class HeatReleasePressure:
     traced: ClassVar[None] = None
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
-        """Return the diagram in a cylinder."""
-        return self._solved(volume_at, volume_rate_at, dead_centres).calculated
-
-    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
-        """Return the diagram of a cylinder without combustion; the walls still take heat."""
-        cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
-        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
-
-    def _solved(
-        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-    ) -> HeatReleaseResult:
-        """Return the solution, cached by data and cylinder."""
+        """Return the diagram in a cylinder; solutions are kept by data and cylinder."""
         cylinder = tuple(volume_at(np.array(_PROBES)).tolist())
         key = (self.data, cylinder, dead_centres)
         if key not in _SOLUTIONS:
@@ -180,6 +168,11 @@ class HeatReleasePressure:
                 _SOLUTIONS.clear()
             _SOLUTIONS[key] = heat_release(self.data, volume_at, volume_rate_at, dead_centres)
         return _SOLUTIONS[key]
+
+    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram of a cylinder without combustion; the walls still take heat."""
+        cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
+        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
 
 
 @dataclass(frozen=True)
@@ -211,34 +204,9 @@ class MisfirePressure:
         return firing._replace(diagram=diagram, theoretical=None)
 
 
-class HeatReleaseTrace(NamedTuple):
-    """The closed period point by point, arrays of shape (n,).
-
-    Crank angle [deg], pressure [Pa], temperature [K], burnt fraction [-], pressure rise [Pa/rad], heat to the
-    walls [J/rad]. Angles continue past the end of the cycle.
-    """
-
-    degrees: Array
-    pressure: Array
-    temperature: Array
-    burnt: Array
-    pressure_rise: Array
-    wall_heat_rate: Array
-
-
-@dataclass(frozen=True)
-class HeatReleaseResult:
-    """A cycle from heat release."""
-
-    calculated: Calculated  # Diagram, single values, notices
-    history: HeatReleaseTrace  # The closed period point by point
-    # Work and heat to the walls by quadrature over the diagram, and the residual of the first law with them [J]
-    again: Mapping[str, float]
-
-
 def heat_release(
     data: HeatReleaseData, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-) -> HeatReleaseResult:
+) -> Calculated:
     """Return the cycle of a heat release (heywood_1988, ch. 9 and 12)."""
     dead_centres = from_before_zero(dead_centres)
     worked = Calculation()
@@ -246,12 +214,12 @@ def heat_release(
     periods = [stage for stage in stages(data, dead_centres) if stage.end > stage.start]
     solved = _solved(gas, periods, tuple(worked.known.values()))
     segments = [segment for segment, _ in solved]
-    history = _trace(gas, solved)
     # the pressure has been integrated already: its column needs no volume
     diagram = _diagram(data, segments, dead_centres, (worked["residual_pressure"], worked["intake_pressure"]))
     pressure = traced_pressure(diagram, absent("cylinder_volume"))
     work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
-    stored = gas.energy_change(history.temperature[-1])
+    ends = np.array([segments[-1].end]), segments[-1].pressures[-1:]
+    stored = gas.energy_change(float(gas.temperature(*ends)[0]))
     # combustion ends before the exhaust opens
     burnt = wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
     trace = {"fuel_heat": worked["fuel_heat"], "heat_released": (worked["fuel_heat"] * burnt).named("heat_released")}
@@ -261,20 +229,18 @@ def heat_release(
     }
     left = trace["heat_released"] - trace["wall_heat"] - trace["closed_work"] - trace["internal_energy_change"]
     trace["first_law_residual"] = left.named("first_law_residual")
-    trace |= _extremes(gas, periods, segments, history, pressure)
+    trace |= _extremes(gas, periods, segments, pressure)
     trace["cylinder_temperature_max"] = _hottest(gas, trace, pressure, worked)
     trace["indicated_work"] = TracedValue(
         ProcedureValue(diagram.work(volume_at), "integral", (pressure,)), "indicated_work"
     )
-    again = _by_quadrature(gas, periods, segments)
-    again["first_law_residual"] = trace["heat_released"].value - again["wall_heat"] - again["closed_work"] - stored
     at_peak = worked.again(".peak")
     work_peak(gas, trace, at_peak)
     peak = {
         traced.key: traced for traced in (*worked.found.values(), *at_peak.found.values()) if traced.key not in trace
     }
     calculated = Calculated(diagram, trace, (), peak=peak)
-    return HeatReleaseResult(calculated._replace(notices=heat_notices(data, gas, calculated.values)), history, again)
+    return calculated._replace(notices=heat_notices(data, gas, calculated.values))
 
 
 def _solved(gas: ClosedGas, periods: list[Stage], inputs: tuple[TracedValue, ...]) -> list[tuple[Segment, Array]]:
@@ -308,30 +274,8 @@ def _curve(gas: ClosedGas, period: Stage, dense: VolumeAt, count: int, ends: tup
     return Segment(period.start, period.end, "rounded", knots, pressures, slopes)
 
 
-def _trace(gas: ClosedGas, solved: list[tuple[Segment, Array]]) -> HeatReleaseTrace:
-    parts = [segment for segment, _ in solved]
-    keep = [slice(1 if number else 0, None) for number in range(len(parts))]
-    degrees = np.concatenate([segment.knots[part] for segment, part in zip(parts, keep, strict=True)])
-    pressure = np.concatenate([segment.pressures[part] for segment, part in zip(parts, keep, strict=True)])
-    slopes = np.degrees(np.concatenate([segment.slopes[part] for segment, part in zip(parts, keep, strict=True)]))
-    temperature = gas.temperature(degrees, pressure)
-    wall = gas.wall_rate(degrees, pressure, gas.is_burning(degrees))
-    return HeatReleaseTrace(degrees, pressure, temperature, gas.burnt(degrees), slopes, wall)
-
-
-def _by_quadrature(gas: ClosedGas, periods: list[Stage], segments: list[Segment]) -> dict[str, float]:
-    """Return work and heat to the walls as integrals over the diagram, independent of the differential equation."""
-    work = wall = 0.0
-    for period, segment in zip(periods, segments, strict=True):
-        nodes, weights = quadrature(segment.knots)
-        pressure = hermite(segment.knots, segment.pressures, segment.slopes, nodes)
-        work += segment.work(gas.volume_at)
-        wall += float(weights @ gas.wall_rate(nodes, pressure, np.full(len(nodes), period.has_burnt)))
-    return {"closed_work": work, "wall_heat": wall}
-
-
 def _extremes(
-    gas: ClosedGas, periods: list[Stage], segments: list[Segment], history: HeatReleaseTrace, column: TracedValue
+    gas: ClosedGas, periods: list[Stage], segments: list[Segment], column: TracedValue
 ) -> dict[str, TracedValue]:
     """Return the greatest pressure, temperature and pressure rise, with their angles."""
     diagram = IndicatorDiagram(tuple(segments), {})
@@ -342,13 +286,11 @@ def _extremes(
     def temperature(degrees: Array) -> Array:
         return gas.temperature(degrees, pressure(degrees))
 
+    knots = diagram.breaks
     extremes: dict[str, TracedValue] = {}
-    for key, function, values in (
-        ("cylinder_pressure", pressure, history.pressure),
-        ("cylinder_temperature", temperature, history.temperature),
-    ):
-        top = int(np.argmax(values))
-        fine = np.linspace(history.degrees[max(top - 1, 0)], history.degrees[min(top + 1, len(values) - 1)], _FINE)
+    for key, function in (("cylinder_pressure", pressure), ("cylinder_temperature", temperature)):
+        top = int(np.argmax(function(knots)))
+        fine = np.linspace(knots[max(top - 1, 0)], knots[min(top + 1, len(knots) - 1)], _FINE)
         extremes |= _greatest(key, [(fine, function(fine))], column, gas.data.cycle)
     steepest = []
     for period, segment in zip(periods, segments, strict=True):
