@@ -14,7 +14,7 @@ from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, in_link_frame
 from crankwork.kinematics.kinematic_coefficients import Transfer
-from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure
+from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure, solve_positions
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import Guide
@@ -78,7 +78,7 @@ class PositionEquations:
             value, jacobian = self.residual(u[active])
             offset = np.sum(normal[active] * (u[active] - guess[active]), axis=-1, keepdims=True)
             matrix = np.concatenate([jacobian, normal[active, None, :]], axis=1)
-            step = _solved(matrix, -np.concatenate([value, offset], axis=1))
+            step = solve_positions(matrix, -np.concatenate([value, offset], axis=1))
             u[active] += step
             active = active[~(np.max(np.abs(step), axis=1) < _LAST_STEP)]
             if not active.size:
@@ -92,7 +92,7 @@ class PositionEquations:
         matrix = np.concatenate([jacobian, along[:, None, :]], axis=1)
         right = np.zeros(u.shape)
         right[:, -1] = 1.0
-        tangent = _solved(matrix, right)
+        tangent = solve_positions(matrix, right)
         tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
         return tangent, np.linalg.det(matrix)
 
@@ -117,7 +117,7 @@ class PositionEquations:
             matrix[count:-1, :size], matrix[count:-1, size:-1] = curvature, jacobian[0].T
             matrix[-1, size:-1] = 2 * w
             right = np.concatenate([value[0] + miss * first, jacobian[0].T @ w, [w @ w - 1.0]])
-            step = _solved(matrix[None], -right[None])[0]
+            step = solve_positions(matrix[None], -right[None])[0]
             u, w, miss = u + step[:size], w + step[size:-1], miss + float(step[-1])
             if not np.max(np.abs(step)) < 1.0:
                 return None
@@ -145,13 +145,6 @@ class PositionEquations:
         gradient = np.einsum("e,nek->nk", w, jacobian)
         second = (gradient[: len(u)] - gradient[len(u) :]) / (2 * step)
         return np.asarray((second + second.T) / 2)
-
-
-def _solved(matrix: Array, right: Array) -> Array:
-    try:
-        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
-    except np.linalg.LinAlgError:
-        return np.full_like(right, np.nan)
 
 
 @dataclass(frozen=True)

@@ -352,18 +352,10 @@ class Closures:
 
 def _title(group: Dyad | Chain) -> ErrorMessage:
     """Return the name of a group in messages."""
-    match group:
-        case RRR():
-            pair = group.link_a, group.link_b
-        case RRP():
-            pair = group.link, group.piece
-        case RPR() | RPP():
-            pair = group.link, group.block
-        case PRP():
-            pair = group.block_a, group.block_b
-        case Chain():
-            return ErrorMessage("group_of", names=", ".join(link.name for link in group.links))
-    return ErrorMessage("dyad_of", kind=type(group).__name__, first=pair[0], second=pair[1])
+    if isinstance(group, Chain):
+        return ErrorMessage("group_of", names=", ".join(group_links(group)))
+    first, second = group_links(group)
+    return ErrorMessage("dyad_of", kind=type(group).__name__, first=first, second=second)
 
 
 @formula("link_length", _SOURCE)
