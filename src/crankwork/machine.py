@@ -35,8 +35,7 @@ if TYPE_CHECKING:
     from crankwork.loads.load import Load
     from crankwork.mechanism.linkage import Linkage
     from crankwork.shaft.flywheel_sizing import FlywheelSpec
-    from crankwork.shaft.motor import GearedMotor
-    from crankwork.shaft.motor_selection import MotorSelection
+    from crankwork.shaft.motor import GearedMotor, MotorSelection
     from crankwork.shaft.torque_diagram import ShaftTorques
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 

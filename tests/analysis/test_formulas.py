@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.cylinders.journal_loads import unbalance_weight
-from crankwork.dynamics import torque_formulas
+from crankwork.dynamics import reduction
 from crankwork.dynamics.tabulated_inertia import difference_derivative
 from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -82,9 +82,9 @@ def test_differences_are_those_of_the_table():
     for row in range(5):
         before, after = row - 1, (row + 1) % 5
         ahead, behind = (angle[after] - angle[row]) % math.tau, (angle[row] - angle[before]) % math.tau
-        found = torque_formulas.forward_difference(inertia[after], inertia[row], ahead)
+        found = reduction.forward_difference(inertia[after], inertia[row], ahead)
         assert found == pytest.approx(forward[row], rel=1e-14)
-        found = torque_formulas.central_difference(inertia[after], inertia[before], ahead + behind)
+        found = reduction.central_difference(inertia[after], inertia[before], ahead + behind)
         assert found == pytest.approx(central[row], rel=1e-14)
 
 

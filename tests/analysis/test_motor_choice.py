@@ -5,7 +5,7 @@ import math
 import pytest
 
 import crankwork
-from crankwork.shaft.motor_selection import standard_power
+from crankwork.shaft.motor import standard_power
 from machine_texts import SLIDER_CRANK, analysed
 
 PRESS, COMPRESSOR = (crankwork.template(name) for name in ("press", "compressor"))

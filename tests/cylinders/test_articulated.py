@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from crankwork.cylinders.articulated import (
     ArticulatedRod,
+    articulated_forces,
     articulated_motion,
     articulated_stroke,
     check_articulated_rod,
 )
-from crankwork.cylinders.articulated_forces import articulated_forces
 from crankwork.cylinders.engines import radial
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid

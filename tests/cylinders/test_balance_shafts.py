@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 
-from crankwork.cylinders.balance import free_forces, inertia_harmonics, layout_factors
-from crankwork.cylinders.balance_shafts import ShaftWeight, balance_shafts, shaft_forces
+from crankwork.cylinders.balance import (
+    ShaftWeight,
+    balance_shafts,
+    free_forces,
+    inertia_harmonics,
+    layout_factors,
+    shaft_forces,
+)
 from crankwork.cylinders.counterweights import rotating_unbalances, throw_counterweights, turning_forces
 from crankwork.cylinders.ellipse import balance_sum
 from crankwork.cylinders.layout import CylinderPlace, Layout

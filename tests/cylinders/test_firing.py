@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from crankwork.cylinders.arrangement import STANDARD_ORDERS, radial_order, standard_orders
 from crankwork.cylinders.firing import (
     LayoutError,
     checked_order,
@@ -18,7 +19,6 @@ from crankwork.cylinders.firing import (
     possible_order,
     wrap_angle,
 )
-from crankwork.cylinders.standard_orders import STANDARD_ORDERS, radial_order, standard_orders
 from each import for_each
 from engines import standard_layout
 

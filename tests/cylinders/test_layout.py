@@ -4,11 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crankwork.cylinders.arrangement import build_layout
+from crankwork.cylinders.arrangement import STANDARD_ORDERS, build_layout
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, order_text, wrap_angle
 from crankwork.cylinders.layout import Banks
-from crankwork.cylinders.standard_orders import STANDARD_ORDERS
 from each import for_each
 from engines import standard_layout
 

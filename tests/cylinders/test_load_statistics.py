@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from crankwork.cylinders.load_statistics import LoadReversal, polar_diagram, reversal
 from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.cylinders.wear import LoadReversal, polar_diagram, reversal
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere

@@ -7,10 +7,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from crankwork.cylinders.arrangement import STANDARD_ORDERS, standard_orders
 from crankwork.cylinders.engines import vee
-from crankwork.cylinders.standard_orders import STANDARD_ORDERS, standard_orders
-from crankwork.cylinders.torque import even_firing_interval, firing_intervals, mean_torque_of_work, torques_along_shaft
-from crankwork.cylinders.torque_harmonics import curve_harmonics, phase_star, torque_harmonics, total_harmonics
+from crankwork.cylinders.torque import (
+    curve_harmonics,
+    even_firing_interval,
+    firing_intervals,
+    mean_torque_of_work,
+    phase_star,
+    torque_harmonics,
+    torques_along_shaft,
+    total_harmonics,
+)
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.piston import piston_motion

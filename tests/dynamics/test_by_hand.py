@@ -6,7 +6,8 @@ from collections.abc import Callable
 import pytest
 
 from crankwork.cylinders import articulated, load_vectors
-from crankwork.dynamics import piston_forces, torque_formulas
+from crankwork.dynamics import piston_forces, reduction
+from crankwork.dynamics.efficiency import efficiency_share
 from crankwork.kinematics import kinematic_coefficients, motion_laws, piston, plane_motion, slider_crank
 from crankwork.loads import gas
 from crankwork.shaft import flywheel
@@ -45,8 +46,8 @@ CASES = (
     (load_vectors.turned_along, (2, 3, 0.6, 0.8), -0.2),
     (load_vectors.turned_across, (2, 3, 0.6, 0.8), 3.6),
     (piston_forces.transverse_weight, (3, 9.81, 0.5), 14.715),
-    (torque_formulas.balancing_torque_of_parts, (30, 12), 42),
-    (torque_formulas.efficiency_share, (0.25, 0.8), 0.2),
+    (reduction.balancing_torque_of_parts, (30, 12), 42),
+    (efficiency_share, (0.25, 0.8), 0.2),
     (flywheel.work_of_mean_torque, (25, 12), 300),
     (flywheel.flywheel_beside_machine, (5, 1.5), 3.5),
     (gas.gauge_pressure, (1.6e5, 1e5), 6e4),

@@ -9,7 +9,7 @@ import pytest
 import crankwork
 from crankwork.formula.replay import Program
 from crankwork.kinematics.circuits import circuit_through
-from crankwork.kinematics.configuration_coordinates import driver_coordinate, link_angle
+from crankwork.kinematics.configuration_curve import driver_coordinate, link_angle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.traced_motion import traced_motion

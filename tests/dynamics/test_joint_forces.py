@@ -3,10 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from crankwork.dynamics.force_system import solve_positions
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.loop_closure import solve_positions
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import ForceOnPoint, ProcessForce, TorqueOnLink, applied_loads
 from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke

@@ -1,10 +1,10 @@
 """Ranges of formulas: what is put in from outside is told once, at its farthest."""
 
 from crankwork.formula.traced_value import AngleFunction, TracedValue, given
-from crankwork.formula.validity_ranges import range_notices
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.report.notices import notice_text
 from crankwork.working_cycle.heat_capacities import air_heat, mixture_heat
+from crankwork.working_cycle.usual_ranges import range_notices
 
 SIN = TracedValue(AngleFunction("sin"), "crank_angle")
 

@@ -13,8 +13,7 @@ from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import AngleFunction, Piecewise, ProcedureValue, TracedValue, given
 from crankwork.kernel import compiled as compiled_kernels
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.derivative import PARTIALS, ByAngle
-from crankwork.kernel.graph import COMPUTE, KernelGraph, number
+from crankwork.kernel.graph import COMPUTE, PARTIALS, ByAngle, KernelGraph, number
 from crankwork.kernel.graph import in_order as values_in_order
 from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
 from crankwork.kernel.schedule import shared

@@ -9,7 +9,7 @@ import pytest
 from crankwork.cylinders.load_vectors import bearing_load
 from crankwork.formula.traced_value import AngleFunction, Piecewise, ProcedureValue, TracedValue, given
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.reduction_adjoints import part_key
+from crankwork.kernel.gradient import part_key
 from crankwork.kinematics.crank_grid import CrankGrid
 from varied import Varied
 

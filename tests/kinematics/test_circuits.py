@@ -7,7 +7,7 @@ import pytest
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.circuits import all_circuits, circuit_at, circuit_through
-from crankwork.kinematics.configuration_coordinates import driver_coordinate, link_angle, relative_angle
+from crankwork.kinematics.configuration_curve import driver_coordinate, link_angle, relative_angle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar

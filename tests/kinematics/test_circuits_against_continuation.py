@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from crankwork.kinematics.circuits import all_circuits
-from crankwork.kinematics.configuration_coordinates import driver_coordinate, link_angle
+from crankwork.kinematics.configuration_curve import driver_coordinate, link_angle
 from crankwork.mechanism.catalog import four_bar, stephenson_six_bar, watt_six_bar
 
 pytestmark = pytest.mark.elsewhere

@@ -9,7 +9,7 @@ import linkages
 from crankwork.errors import GeometryError
 from crankwork.kinematics import chain_solver
 from crankwork.kinematics.chain_solver import as_chain
-from crankwork.kinematics.configuration_coordinates import driver_coordinate
+from crankwork.kinematics.configuration_curve import driver_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.crank_range import find_crank_range
 from crankwork.kinematics.motion import linkage_motion

@@ -2,7 +2,7 @@
 
 import pytest
 
-from crankwork.kinematics.grashof import grashof
+from crankwork.mechanism.structure import grashof
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere

@@ -206,7 +206,10 @@ def test_textbook_approaches_exact_with_the_cube_of_the_ratio(offset: float) -> 
     errors = []
     for ratio in (0.04, 0.02, 0.01):
         machine = SliderCrank(1.0, 1 / ratio, offset)
-        exact, approximate = exact_piston(machine, grid, rod_swing(machine, grid)), textbook_piston(machine, grid)
+        exact, approximate = (
+            exact_piston(machine, grid, rod_swing(machine, grid), machine.rod_ratio),
+            textbook_piston(machine, grid, machine.rod_ratio),
+        )
         errors.append([
             float(np.ptp(exact.position - approximate.position)) if offset else _gap(exact, approximate, 0),
             _gap(exact, approximate, 1),
@@ -225,7 +228,10 @@ def test_textbook_displacement_with_offset_counts_from_top_dead_centre_to_the_or
     """The two-term displacement starts at the crank angle zero, where a small offset leaves second-order distance."""
     machine = SliderCrank(1.0, 4.0, 0.1)
     grid = CrankGrid.steps(1.0, 360.0)
-    exact, approximate = exact_piston(machine, grid, rod_swing(machine, grid)), textbook_piston(machine, grid)
+    exact, approximate = (
+        exact_piston(machine, grid, rod_swing(machine, grid), machine.rod_ratio),
+        textbook_piston(machine, grid, machine.rod_ratio),
+    )
     assert _gap(exact, approximate, 0) < 0.0020 + 0.25 * 0.1**2
 
 
@@ -291,10 +297,12 @@ def test_a_row_of_a_batch_is_the_single_machine(offsets: tuple[float, float]) ->
     grid = CrankGrid.steps(1.0, 360.0)
     lengths = [(0.05, 0.2, offsets[0]), (0.06, 0.18, offsets[1])]
     batch = SliderCrank(*(np.array(column)[:, None] for column in zip(*lengths, strict=True)))
-    together = exact_piston(batch, grid, rod_swing(batch, grid))
+    together = exact_piston(batch, grid, rod_swing(batch, grid), batch.rod_ratio)
     for row, one in enumerate(lengths):
         machine = SliderCrank(*one)
-        for shown, alone in zip(together, exact_piston(machine, grid, rod_swing(machine, grid)), strict=True):
+        for shown, alone in zip(
+            together, exact_piston(machine, grid, rod_swing(machine, grid), machine.rod_ratio), strict=True
+        ):
             assert np.array_equal(shown[row], alone)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from crankwork.cylinders.engines import inline
-from crankwork.cylinders.torque_harmonics import curve_harmonics, total_harmonics
+from crankwork.cylinders.torque import curve_harmonics, total_harmonics
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import acceleration_of_crank, excess_work, fluctuation_of_inertia
 from engines import cylinder_angle

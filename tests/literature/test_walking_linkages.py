@@ -15,7 +15,7 @@ import pytest
 
 from crankwork import read_machine
 from crankwork.kinematics.circuits import circuit_through
-from crankwork.kinematics.configuration_coordinates import driver_coordinate
+from crankwork.kinematics.configuration_curve import driver_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar

@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from crankwork.cylinders.balance import (
     InertiaHarmonics,
+    balance_shafts,
     free_forces,
     inertia_harmonics,
     layout_factors,
     sampled_harmonics,
+    shaft_forces,
 )
-from crankwork.cylinders.balance_shafts import balance_shafts, shaft_forces
 from crankwork.cylinders.counterweights import (
     rotating_unbalances,
     throw_counterweights,

@@ -7,8 +7,7 @@ import pytest
 
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, breakdown_slip, synchronous_speed
-from crankwork.shaft.motor_selection import first_angle_beyond
+from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, breakdown_slip, first_angle_beyond, synchronous_speed
 from each import for_each
 from motors import LinearMotor
 

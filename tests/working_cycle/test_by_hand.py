@@ -17,7 +17,6 @@ from crankwork.working_cycle import (
     grinevetsky,
     heat_capacities,
     ideal,
-    performance,
 )
 from each import for_each
 
@@ -106,15 +105,15 @@ COMBUSTION: list[Case] = [
 
 PERFORMANCE: list[Case] = [
     # 2 (1.6 - 1) + 2 * 1.6/0.5 (1 - 1/2) - 1/0.25 (1 - 1/2) = 2.4, times 1.5 MPa over 15
-    (performance.theoretical_mean_pressure, (1.5e6, 16, 2, 1.6, 1.5, 4, 1.25), 240e3),
-    (performance.filled_mean_pressure, (0.95, 1.2e6, 0.05), 1.083e6),
-    (performance.ported_volumetric_efficiency, (0.8, 0.15), 0.68),
-    (performance.indicated_efficiency, (1.1e6, 15, 0.96, 44e6, 1.2, 0.75), 0.4),
-    (performance.mechanical_loss_pressure, (0.04e6, 0.01e6, 12), 0.16e6),
-    (performance.effective_mean_pressure, (1e6, 0.16e6), 0.84e6),
-    (performance.mechanical_efficiency, (0.84e6, 1.05e6), 0.8),
-    (performance.effective_efficiency, (0.4, 0.8), 0.32),
-    (performance.fuel_consumption, (40e6, 0.25), 1e-7),
+    (engine_size.theoretical_mean_pressure, (1.5e6, 16, 2, 1.6, 1.5, 4, 1.25), 240e3),
+    (engine_size.filled_mean_pressure, (0.95, 1.2e6, 0.05), 1.083e6),
+    (engine_size.ported_volumetric_efficiency, (0.8, 0.15), 0.68),
+    (engine_size.indicated_efficiency, (1.1e6, 15, 0.96, 44e6, 1.2, 0.75), 0.4),
+    (engine_size.mechanical_loss_pressure, (0.04e6, 0.01e6, 12), 0.16e6),
+    (engine_size.effective_mean_pressure, (1e6, 0.16e6), 0.84e6),
+    (engine_size.mechanical_efficiency, (0.84e6, 1.05e6), 0.8),
+    (engine_size.effective_efficiency, (0.4, 0.8), 0.32),
+    (engine_size.fuel_consumption, (40e6, 0.25), 1e-7),
     (engine_size.displacement_of_power, (4, 60e3, 0.8e6, 4500), 0.002),
     (engine_size.swept_volume_of_one, (2e-3, 4), 5e-4),
     # with pi as 3, pi 0.08^3 * 1.25/4 = 0.00048

@@ -11,7 +11,7 @@ import numpy as np
 
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.circuits import Circuit, CircuitPart, all_circuits, circuit_at
-from crankwork.kinematics.configuration_coordinates import driver_coordinate, link_angle, rod_of
+from crankwork.kinematics.configuration_curve import driver_coordinate, link_angle, rod_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.crank_range import find_crank_range, has_steady_crank
 from crankwork.locale import ErrorMessage

@@ -12,9 +12,18 @@ import numpy as np
 
 from crankwork.analysis.results import Listing, Results
 from crankwork.cylinders import bearings as formulas
-from crankwork.cylinders.load_statistics import PolarDiagram, polar_diagram, reversal, reversal_of_polynomials
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.cylinders.wear import OilHole, OilHoleOfPolynomials, oil_hole, ray_angles, wear_sums
+from crankwork.cylinders.wear import (
+    OilHole,
+    OilHoleOfPolynomials,
+    PolarDiagram,
+    oil_hole,
+    polar_diagram,
+    ray_angles,
+    reversal,
+    reversal_of_polynomials,
+    wear_sums,
+)
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import (
     FunctionValue,

@@ -22,6 +22,8 @@ from crankwork.cylinders.balance import (
     ALL_ORDERS,
     ORDERS,
     InertiaHarmonics,
+    ShaftWeight,
+    balance_shafts,
     free_force,
     free_forces,
     free_moment,
@@ -29,8 +31,8 @@ from crankwork.cylinders.balance import (
     layout_factors,
     order_inertia_force,
     sampled_harmonics,
+    shaft_forces,
 )
-from crankwork.cylinders.balance_shafts import ShaftWeight, balance_shafts, shaft_forces
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, rotating_unbalances, turning_forces
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
 from crankwork.cylinders.journal_loads import unbalance_force

@@ -15,7 +15,7 @@ from crankwork.analysis.piston_kinematics import (
 from crankwork.analysis.prepared import PreparedCylinder
 from crankwork.analysis.reduction import REDUCTION, cylinder_reduction
 from crankwork.analysis.results import Results
-from crankwork.cylinders.articulated_forces import (
+from crankwork.cylinders.articulated import (
     KnuckleMass,
     articulated_forces,
     knuckle_acceleration_across,

@@ -14,14 +14,15 @@ from crankwork.analysis.mechanism_trace import speed_of
 from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Results
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
-from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy
-from crankwork.dynamics.tabulated_inertia import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
-from crankwork.dynamics.torque_formulas import (
+from crankwork.dynamics.reduction import (
     balancing_torque_of_parts,
     central_difference,
+    dynamic_torque,
     forward_difference,
+    kinetic_energy,
     static_torque_of_balancing,
 )
+from crankwork.dynamics.tabulated_inertia import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
 from crankwork.formula.replay import Program, replay
 from crankwork.formula.traced_value import (
     AngleFunction,

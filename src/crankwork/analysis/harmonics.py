@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from crankwork.analysis.results import Listing
-from crankwork.cylinders.torque_harmonics import TorqueHarmonics, amplitude_of_harmonic, curve_harmonics
+from crankwork.cylinders.torque import TorqueHarmonics, amplitude_of_harmonic, curve_harmonics
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, total
 from crankwork.quantities.key import key_of

@@ -17,10 +17,9 @@ from crankwork.analysis.results import Results
 from crankwork.analysis.shaft_torque import EngineTorque, engine_torque
 from crankwork.cylinders.bearings import big_end_inertia_force
 from crankwork.cylinders.ellipse import Ellipse, balance_sum
-from crankwork.cylinders.load_statistics import polar_diagram
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.cylinders.torque import torques_along_shaft
-from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
+from crankwork.cylinders.torque import PhaseStar, phase_star, torques_along_shaft
+from crankwork.cylinders.wear import polar_diagram
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import breakpoints_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid

@@ -65,7 +65,6 @@ from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.crank_range import pass_change_points
-from crankwork.kinematics.grashof import FourBarType, grashof
 from crankwork.kinematics.instant_centres import absent_where_still, pivoted_links
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.motion_laws import rate_jumps
@@ -74,7 +73,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Crank, Driver
-from crankwork.mechanism.structure import mobility
+from crankwork.mechanism.structure import FourBarType, grashof, mobility
 from crankwork.quantities.key import key_of
 
 _DENSE_STEP = 1.0

@@ -16,6 +16,7 @@ from crankwork.dynamics.link_loads import link_angular_acceleration
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import JointForces, pin_columns
 from crankwork.dynamics.reduction import (
+    balancing_torque_of_parts,
     driver_power,
     dynamic_torque,
     kinetic_energy,
@@ -23,7 +24,6 @@ from crankwork.dynamics.reduction import (
     reduced_torque,
     static_torque,
 )
-from crankwork.dynamics.torque_formulas import balancing_torque_of_parts
 from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given, reached
 from crankwork.kinematics import kinematic_coefficients as rates
 from crankwork.kinematics.dyads import is_zero

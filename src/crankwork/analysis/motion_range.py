@@ -20,7 +20,7 @@ from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import ProcedureValue, TracedValue
 from crankwork.kinematics.assembly import dead_position, first_failure
 from crankwork.kinematics.circuits import Extent
-from crankwork.kinematics.configuration_coordinates import link_angle
+from crankwork.kinematics.configuration_curve import link_angle
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.crank_range import CrankRange, find_crank_range, has_steady_crank, near_changes
 from crankwork.kinematics.motion import Motion, linkage_motion

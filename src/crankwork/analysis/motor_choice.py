@@ -5,14 +5,14 @@ from __future__ import annotations
 from crankwork.analysis import traced_inputs
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
 from crankwork.machine import Machine
-from crankwork.shaft.motor import synchronous_speed
-from crankwork.shaft.motor_selection import (
+from crankwork.shaft.motor import (
     POLE_PAIRS,
     POWERS_SOURCE,
     MotorSelection,
     gear_ratio_of_motor,
     needed_power,
     standard_power,
+    synchronous_speed,
 )
 
 # share of the largest torque below which a mean is rounding

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.circuits import with_branches
-from crankwork.kinematics.configuration_coordinates import driver_coordinate
+from crankwork.kinematics.configuration_curve import driver_coordinate
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.crank_range import CrankRange, branches_of
 from crankwork.kinematics.kinematic_coefficients import Transfer

@@ -17,17 +17,16 @@ from crankwork.analysis.prepared import Notice
 from crankwork.analysis.reduction import MOVING, REDUCTION
 from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed
 from crankwork.cylinders.layout import Layout
-from crankwork.cylinders.torque import torques_along_shaft
-from crankwork.cylinders.torque_harmonics import (
+from crankwork.cylinders.torque import (
     amplitude_of_total,
     curve_harmonics,
     phase_sums,
     torque_harmonics,
+    torques_along_shaft,
     total_harmonics,
 )
 from crankwork.dynamics.piston_forces import crank_torque
-from crankwork.dynamics.reduction import dynamic_torque
-from crankwork.dynamics.torque_formulas import static_torque_of_balancing
+from crankwork.dynamics.reduction import dynamic_torque, static_torque_of_balancing
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Samples
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, total

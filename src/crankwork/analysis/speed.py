@@ -58,8 +58,7 @@ from crankwork.shaft.flywheel import (
     work_of_mean_torque,
     works_of_tangents,
 )
-from crankwork.shaft.motor import GearedMotor
-from crankwork.shaft.motor_selection import first_angle_beyond, needed_power
+from crankwork.shaft.motor import GearedMotor, first_angle_beyond, needed_power
 from crankwork.shaft.steady_speed import ReducedMachine, steady_speed
 
 _SLOPES = {

@@ -31,8 +31,7 @@ from crankwork.loads.process import ProcessForce, TorqueOnLink
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine, Transient
 from crankwork.shaft.piecewise_fit import fit_piecewise
-from crankwork.shaft.transient import LIGHT, OWN, RATE, Direction, TransientSystem
-from crankwork.shaft.transient_friction import TransientFriction
+from crankwork.shaft.transient import LIGHT, OWN, RATE, Direction, TransientFriction, TransientSystem
 
 _WIDTH = math.pi / 8
 _LOOKS, _HALVINGS, _NEGLIGIBLE = 2001, 60, 1e-12

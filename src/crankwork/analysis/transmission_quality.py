@@ -12,7 +12,7 @@ from crankwork.analysis.prepared import Notice
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import FormulaCall, ProcedureValue, TracedValue, select
-from crankwork.kinematics import transmission as angles
+from crankwork.kinematics import plane_motion as angles
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.crank_range import CrankRange, line_of
 from crankwork.kinematics.dyads import LinkMotion

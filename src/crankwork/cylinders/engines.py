@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from crankwork.cylinders.arrangement import build_layout
+from crankwork.cylinders.arrangement import build_layout, radial_order
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.layout import Banks, Layout
-from crankwork.cylinders.standard_orders import radial_order
 from crankwork.locale import ErrorMessage
 
 

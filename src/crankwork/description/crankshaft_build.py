@@ -6,13 +6,12 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from crankwork.cylinders.arrangement import build_layout
+from crankwork.cylinders.arrangement import StandardOrder, build_layout, standard_orders
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
-from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
 from crankwork.description.build import rod_masses
 from crankwork.description.schema import Values
 from crankwork.description.shaft_build import check_counterweights

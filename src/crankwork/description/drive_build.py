@@ -12,8 +12,7 @@ from crankwork.dynamics.efficiency import Chain, Parallel, Series, efficiency
 from crankwork.errors import MethodError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive
-from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
-from crankwork.shaft.motor_selection import MotorSelection
+from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, MotorSelection
 
 _LEAST_EFFICIENCY = 1e-4
 

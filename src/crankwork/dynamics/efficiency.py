@@ -7,7 +7,6 @@ import operator
 from dataclasses import dataclass
 from functools import reduce
 
-from crankwork.dynamics.torque_formulas import efficiency_share
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import TracedValue, given, total
 
@@ -68,6 +67,12 @@ def traced_efficiency(chain: Chain, key: str = "efficiency", path: str = "effici
             if not 0 < value <= 1:
                 raise ValueError(f"an efficiency lies above 0 and not above 1, not at {value:g}")
             return given(key, value, path)
+
+
+@formula("efficiency", "artobolevsky_1988, ch. 14")
+def efficiency_share(k_i: Value, eta_i: Value) -> Value:
+    """Part of one of several parallel chains in their efficiency."""
+    return k_i * eta_i
 
 
 @formula("driving_torque", "artobolevsky_1988, ch. 14")

@@ -3,32 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crankwork.dynamics.dyad_forces import force_along
-from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, cross
+from crankwork.dynamics.link_loads import Wrench, Wrenches, arm
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, joint_place
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import Component, Root, TracedValue, is_traced, sum_terms, total
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import LinkMotion
+from crankwork.kinematics.loop_closure import solve_positions
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied_loads import AppliedForce, AppliedLoads, AppliedTorque
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 
-Vector = tuple[Array, Array]
 Acting = Wrenches | Mapping[str, Wrench]
-
-_ZERO, _ONE = np.array(0.0), np.array(1.0)
-_FIXED_AXES: list[Vector] = [(_ONE, _ZERO), (_ZERO, _ONE)]
 
 
 @dataclass(frozen=True)
@@ -61,26 +56,33 @@ def equilibrium(
 
     `driver`: adds the last unknown, its torque or force; that of a cylinder is part of the forces at its ends.
     """
+    pushed, meshes = _pushed(driver, motion), len(driver.geared) if isinstance(driver, Crank) else 0
+    matrix = np.zeros((len(motion.grid), 3 * len(links), 2 * len(held) + meshes + bool(pushed)))
+    for row, column, value in _entries(motion, links, held, pushed, matrix.shape[-1] - 1):
+        matrix[:, row, column] = value
+    if isinstance(driver, Crank):
+        _mesh(matrix[:, :, 2 * len(held) :], driver, {link: 3 * k for k, link in enumerate(links)})
+    return Equilibrium(tuple(links), tuple(held), matrix)
+
+
+def _entries(
+    motion: Motion, links: Sequence[str], held: Sequence[Joint], pushed: Sequence[tuple[str, int, Value]], last: int
+) -> Iterator[tuple[int, int, Value]]:
+    """Yield what a unit of each unknown does to links, `last` that of the driver: row, column and value."""
     row = {link: 3 * k for k, link in enumerate(links)}
-    pushed = _pushed(driver, motion)
-    meshes = len(driver.geared) if isinstance(driver, Crank) else 0
-    matrix = np.zeros((len(motion.grid), 3 * len(row), 2 * len(held) + meshes + bool(pushed)))
     for k, joint in enumerate(held):
         place, frame = joint_place(joint, motion), motion.frames[joint.link]
-        for link, sign in ((joint.link, 1.0), (joint.other, -1.0)):
+        units = ((1.0, 0.0), (0.0, 1.0)) if isinstance(joint, Pin) else ((-frame.sin, frame.cos),)
+        for link, sign in ((joint.link, 1), (joint.other, -1)):
             if link not in row:
                 continue
-            i, offset = row[link], arm(motion.frames[link].origin, place)
-            for j, unit in enumerate(_FIXED_AXES if isinstance(joint, Pin) else _normal(frame), start=2 * k):
-                matrix[:, i, j], matrix[:, i + 1, j] = sign * unit[0], sign * unit[1]
-                matrix[:, i + 2, j] = sign * cross(offset, unit)
+            i, (x, y) = row[link], arm(motion.frames[link].origin, place)
+            for j, unit in enumerate(units, start=2 * k):
+                parts = (unit[0], unit[1], x * unit[1] - y * unit[0])
+                yield from ((i + offset, j, part if sign == 1 else -part) for offset, part in enumerate(parts))
             if not isinstance(joint, Pin):
-                matrix[:, i + 2, 2 * k + 1] = sign
-    for link, which, value in pushed:
-        matrix[:, row[link] + which, -1] = value
-    if isinstance(driver, Crank):
-        _mesh(matrix[:, :, 2 * len(held) :], driver, row)
-    return Equilibrium(tuple(links), tuple(held), matrix)
+                yield i + 2, 2 * k + 1, float(sign)
+    yield from ((row[link] + which, last, value) for link, which, value in pushed)
 
 
 def _mesh(matrix: Array, driver: Crank, row: Mapping[str, int]) -> None:
@@ -136,26 +138,15 @@ def _pushed(driver: Driver | None, motion: Motion) -> list[tuple[str, int, Value
     return []
 
 
-def _normal(guide: LinkMotion) -> list[Vector]:
-    return [(-guide.sin, guide.cos)]
-
-
 def solved_group(
-    motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting
-) -> dict[Joint, Reaction]:
-    """Return the reactions in the joints of one group (artobolevsky_1988, ch. 13)."""
-    if is_traced(motion.grid.angle):
-        return _traced_with(motion, links, held, wrenches, None)[0]
-    system = equilibrium(motion, links, held)
-    return system.reactions(solve_positions(system.matrix, system.right_side(wrenches)))
-
-
-def motor_group(
-    motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, motor: LinkMotor
+    motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, motor: LinkMotor | None = None
 ) -> tuple[dict[Joint, Reaction], Value]:
-    """Return the reactions in the joints of links that a motor connects, and its torque."""
+    """Return the reactions in the joints of links, and the last unknown: the torque of a motor that connects them.
+
+    Source: artobolevsky_1988, ch. 13.
+    """
     if is_traced(motion.grid.angle):
-        return _traced_with(motion, links, held, wrenches, motor)
+        return _traced_group(motion, links, held, wrenches, motor)
     system = equilibrium(motion, links, held, driver=motor)
     unknowns = solve_positions(system.matrix, system.right_side(wrenches))
     return system.reactions(unknowns), unknowns[..., -1]
@@ -179,27 +170,13 @@ class GroupSolver:
         return solve_positions(augmented[:, :, :-1], augmented[:, :, -1]).T
 
 
-def _traced_with(
+def _traced_group(
     motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, driver: Driver | None
 ) -> tuple[dict[Joint, Reaction], TracedValue]:
     """Return the traced reactions, as a root of the equilibrium equations, and the last unknown."""
-    row = {link: 3 * k for k, link in enumerate(links)}
-    entries: list[tuple[int, int, Value]] = []
-    for k, joint in enumerate(held):
-        place, frame = joint_place(joint, motion), motion.frames[joint.link]
-        for link, sign in ((joint.link, 1), (joint.other, -1)):
-            if link not in row:
-                continue
-            i, (x, y) = row[link], arm(motion.frames[link].origin, place)
-            units = ((1.0, 0.0), (0.0, 1.0)) if isinstance(joint, Pin) else ((-frame.sin, frame.cos),)
-            for j, unit in enumerate(units, start=2 * k):
-                parts = (unit[0], unit[1], x * unit[1] - y * unit[0])
-                entries += [(i + offset, j, part if sign == 1 else -part) for offset, part in enumerate(parts)]
-            if not isinstance(joint, Pin):
-                entries.append((i + 2, 2 * k + 1, float(sign)))
-    size = 3 * len(row)
-    entries += [(row[link] + which, size - 1, value) for link, which, value in _pushed(driver, motion)]
-    entries += [(i + offset, size, -part) for link, i in row.items() for offset, part in enumerate(wrenches[link])]
+    size = 3 * len(links)
+    entries = list(_entries(motion, links, held, _pushed(driver, motion), size - 1))
+    entries += [(3 * k + n, size, -part) for k, link in enumerate(links) for n, part in enumerate(wrenches[link])]
     known = tuple(value for _, _, value in entries if is_traced(value))
     solver = GroupSolver(size, tuple((i, j, None if is_traced(value) else value) for i, j, value in entries))
     root = Root(solver, known)
@@ -243,13 +220,9 @@ def cylinder_force(
 
 def _residual(entries: list[tuple[int, int, Value]], unknowns: Sequence[TracedValue], row: int) -> TracedValue:
     """Return the residual of one equilibrium equation."""
-    in_row = ((j, entry) for i, j, entry in entries if i == row and _counts(entry))
+    in_row = ((j, entry) for i, j, entry in entries if i == row and (is_traced(entry) or bool(entry)))
     terms = [entry * unknowns[j] if j < len(unknowns) else -entry for j, entry in in_row]
     return total(("link_force_x", "link_force_y", "link_moment")[row % 3], terms)
-
-
-def _counts(entry: Value) -> bool:
-    return is_traced(entry) or bool(entry)
 
 
 def _named_pair(joint: Joint, first: TracedValue, second: TracedValue) -> tuple[TracedValue, TracedValue]:
@@ -298,21 +271,6 @@ def _on_half(joint: Joint, driver: Driver) -> Joint:
         return joint
     half = driver.halves[0 if joint.point == driver.barrel else 1].link
     return replace(joint, link=half) if joint.link == driver.link else replace(joint, other=half)
-
-
-def solve_positions(matrix: Array, right: Array) -> Array:
-    """Return the solutions of linear systems, NaN where the position is unknown or singular.
-
-    `matrix` and `right`: a system for each position [m], [N], shape (n, k, k).
-    """
-    known: NDArray[np.bool_] = np.asarray(np.isfinite(matrix).all(axis=(-2, -1)) & np.isfinite(right).all(axis=-1))
-    solution = np.full_like(right, np.nan)
-    try:
-        solution[known] = np.linalg.solve(matrix[known], right[known, :, None])[..., 0]
-    except np.linalg.LinAlgError:
-        known = known & (np.linalg.det(np.where(known[:, None, None], matrix, 0.0)) != 0)
-        solution[known] = np.linalg.solve(matrix[known], right[known, :, None])[..., 0]
-    return solution
 
 
 def numeric_loads(running: OperatingState) -> AppliedLoads:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.dynamics.force_system import Equilibrium, solve_positions
+from crankwork.dynamics.force_system import Equilibrium
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.loop_closure import solve_positions
 from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.mechanism.joints import group_links
 from crankwork.mechanism.mechanism import Mechanism

@@ -26,7 +26,7 @@ from crankwork.dynamics.dyad_forces import (
     rrp_forces,
     rrr_forces,
 )
-from crankwork.dynamics.force_system import cylinder_force, motor_group, solved_group
+from crankwork.dynamics.force_system import cylinder_force, solved_group
 from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, link_wrenches, moment_of
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, reaction_wrench
@@ -34,11 +34,10 @@ from crankwork.formula.expression import Value, formula
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, is_traced, named
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.equal_motion import Follower
+from crankwork.kinematics.dyads import BEYOND
 from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.traced_change_points import BEYOND
-from crankwork.kinematics.traced_motion import interpolant_of
+from crankwork.kinematics.traced_motion import Follower, interpolant_of
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.change_point import ChangePointFit, ChangePointPassage, Polynomial
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, LinkMotor
@@ -79,7 +78,7 @@ def joint_forces(running: OperatingState) -> JointForces:
             if passages:
                 reactions = bridged_forces(reactions, passages[0])
         elif isinstance(driver, LinkMotor):
-            reactions, torque = motor_group(motion, links, held, wrenches, driver)
+            reactions, torque = solved_group(motion, links, held, wrenches, driver)
         result |= reactions
         for reaction in reactions.values():
             carrier = reaction.joint.other
@@ -214,7 +213,7 @@ def _group_reactions(
 ) -> dict[Joint, Reaction]:
     """Return the reactions in the joints of a group, for a dyad in closed form."""
     if isinstance(group, Chain):
-        return solved_group(running.motion, group_links(group), held, wrenches)
+        return solved_group(running.motion, group_links(group), held, wrenches)[0]
     forces = _dyad_reactions(group, running, wrenches, held[1].name)
     return {joint: _reaction(joint, force) for joint, force in zip(held, forces, strict=True)}
 

@@ -20,7 +20,7 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from crankwork.formula.traced_value import FormulaCall, TracedValue, is_traced
+from crankwork.formula.traced_value import FormulaCall, Operators, TracedValue, is_traced
 from crankwork.locale import decimal, translate
 from crankwork.notation import ARGUMENTS
 from crankwork.quantities import QUANTITIES, Language
@@ -117,7 +117,7 @@ def formula(
     return register
 
 
-class Expression:
+class Expression(Operators["Operation"]):
     """A node of a recorded formula: a symbol, a number or an operation."""
 
     __slots__ = ()
@@ -127,38 +127,8 @@ class Expression:
             return NotImplemented  # type: ignore[no-any-return]
         return _operation(_OPERATOR_OF.get(ufunc, ufunc), *operands)
 
-    def __add__(self, other: object) -> Expression:
-        return _operation(operator.add, self, other)
-
-    def __radd__(self, other: object) -> Expression:
-        return _operation(operator.add, other, self)
-
-    def __sub__(self, other: object) -> Expression:
-        return _operation(operator.sub, self, other)
-
-    def __rsub__(self, other: object) -> Expression:
-        return _operation(operator.sub, other, self)
-
-    def __mul__(self, other: object) -> Expression:
-        return _operation(operator.mul, self, other)
-
-    def __rmul__(self, other: object) -> Expression:
-        return _operation(operator.mul, other, self)
-
-    def __truediv__(self, other: object) -> Expression:
-        return _operation(operator.truediv, self, other)
-
-    def __rtruediv__(self, other: object) -> Expression:
-        return _operation(operator.truediv, other, self)
-
-    def __pow__(self, other: object) -> Expression:
-        return _operation(operator.pow, self, other)
-
-    def __rpow__(self, other: object) -> Expression:
-        return _operation(operator.pow, other, self)
-
-    def __neg__(self) -> Expression:
-        return _operation(operator.neg, self)
+    def _made(self, function: Callable[..., Any], *operands: object) -> Operation:
+        return _operation(function, *operands)
 
 
 @dataclass(frozen=True, slots=True)

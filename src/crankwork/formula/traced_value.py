@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,49 @@ if TYPE_CHECKING:
     from crankwork.formula.expression import Formula
 
 Array = NDArray[np.float64]
+Made = TypeVar("Made")
+
+
+class Operators(Generic[Made]):
+    """The operators of Python: each makes a value of a function and its operands by `_made`."""
+
+    __slots__ = ()
+
+    def _made(self, function: Callable[..., Any], *operands: Any) -> Made:  # noqa: ANN401 - values and numbers
+        raise NotImplementedError
+
+    def __add__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.add, self, other)
+
+    def __radd__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.add, other, self)
+
+    def __sub__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.sub, self, other)
+
+    def __rsub__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.sub, other, self)
+
+    def __mul__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.mul, self, other)
+
+    def __rmul__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.mul, other, self)
+
+    def __truediv__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.truediv, self, other)
+
+    def __rtruediv__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.truediv, other, self)
+
+    def __pow__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.pow, self, other)
+
+    def __rpow__(self, other: Any) -> Made:  # noqa: ANN401
+        return self._made(operator.pow, other, self)
+
+    def __neg__(self) -> Made:
+        return self._made(operator.neg, self)
 
 
 class Node:
@@ -247,7 +290,7 @@ class FunctionValue(ProcedureValue):
         self.function, self.part = function, part
 
 
-class TracedValue:
+class TracedValue(Operators["TracedValue"]):
     """A value with its calculation, under the name it has here.
 
     The key is that of the quantity, with what tells it from others of that quantity after a point: `joint_force.A`.
@@ -289,32 +332,8 @@ class TracedValue:
     def __repr__(self) -> str:
         return f"<known {self.key or type(self.node).__name__}>"
 
-    def __add__(self, other: TracedValue | float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.add, (self, other)))
-
-    def __radd__(self, other: float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.add, (other, self)))
-
-    def __sub__(self, other: TracedValue | float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.sub, (self, other)))
-
-    def __rsub__(self, other: float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.sub, (other, self)))
-
-    def __mul__(self, other: TracedValue | float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.mul, (self, other)))
-
-    def __rmul__(self, other: float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.mul, (other, self)))
-
-    def __truediv__(self, other: TracedValue | float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.truediv, (self, other)))
-
-    def __rtruediv__(self, other: float) -> TracedValue:
-        return TracedValue(Arithmetic(operator.truediv, (other, self)))
-
-    def __neg__(self) -> TracedValue:
-        return TracedValue(Arithmetic(operator.neg, (self,)))
+    def _made(self, function: Callable[..., Any], *operands: Any) -> TracedValue:  # noqa: ANN401
+        return TracedValue(Arithmetic(function, operands))
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
         raise TypeError(f"{self!r} is traced: only formulas, sums, products and quotients may take it")

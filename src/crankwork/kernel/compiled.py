@@ -25,8 +25,7 @@ from crankwork.formula.traced_value import (
     breakpoints_of,
     in_order,
 )
-from crankwork.kernel.block_reductions import Block, LevelReductions
-from crankwork.kernel.gradient import Gradient
+from crankwork.kernel.gradient import Gradient, ReductionAdjoint, part_key, split_extreme
 from crankwork.kernel.graph import COMPUTE, KernelValue, number
 from crankwork.kernel.graph import in_order as values_in_order
 from crankwork.kernel.grid import (
@@ -42,8 +41,7 @@ from crankwork.kernel.grid import (
 from crankwork.kernel.javascript import Script
 from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
 from crankwork.kernel.python_source import ACCUMULATED, LANES, Source
-from crankwork.kernel.reduction_adjoints import ReductionAdjoint, part_key, split_extreme
-from crankwork.kernel.reductions import PolynomialReductions, SampledReductions
+from crankwork.kernel.reductions import Block, LevelReductions, PolynomialReductions, SampledReductions
 from crankwork.kernel.schedule import Schedule
 
 Array = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Graph of the operations of a calculation, equal operations once."""
+"""Graph of the operations of a calculation, equal operations once, and derivatives of them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from crankwork.formula.traced_value import Operators
 
 _OPERATIONS: dict[Callable[..., Any], str] = {
     operator.add: "add", operator.sub: "sub", operator.mul: "mul", operator.truediv: "div", operator.neg: "neg",
@@ -38,7 +40,7 @@ class LawEnd(NamedTuple):
     value: KernelValue | None = None
 
 
-class KernelValue:
+class KernelValue(Operators["KernelValue"]):
     """Node of the graph: an operation and its operands.
 
     `kind`: name of an operation, or constant, input, angle, pieces, delayed, moved or reduction, with its `detail`;
@@ -74,38 +76,8 @@ class KernelValue:
             operands = (*operands, 2.0)
         return self.graph.apply(_OPERATIONS[ufunc], *operands)
 
-    def __add__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("add", self, other)
-
-    def __radd__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("add", other, self)
-
-    def __sub__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("sub", self, other)
-
-    def __rsub__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("sub", other, self)
-
-    def __mul__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("mul", self, other)
-
-    def __rmul__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("mul", other, self)
-
-    def __truediv__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("div", self, other)
-
-    def __rtruediv__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("div", other, self)
-
-    def __pow__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("pow", self, other)
-
-    def __rpow__(self, other: Any) -> KernelValue:  # noqa: ANN401
-        return self.graph.apply("pow", other, self)
-
-    def __neg__(self) -> KernelValue:
-        return self.graph.apply("neg", self)
+    def _made(self, function: Callable[..., Any], *operands: Any) -> KernelValue:  # noqa: ANN401
+        return self.graph.apply(_OPERATIONS[function], *operands)
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.index}>"
@@ -329,3 +301,70 @@ def in_order(
             stack.append((value, True))
             if into(value):
                 stack.extend((operand, False) for operand in reversed(value.operands))
+
+
+# derivatives of functions of an angle, as other functions and a sign
+_OF_ANGLE = {"sin": ("cos", 1.0), "cos": ("sin", -1.0), "one_minus_sin": ("cos", -1.0), "one_plus_sin": ("cos", 1.0)}
+
+# By the name of an operation: its derivatives by each operand, as functions of its result and its operands. They are
+# values of a graph, or numbers.
+PARTIALS: dict[str, Callable[..., tuple[Any, ...]]] = {
+    "add": lambda *_: (1.0, 1.0),
+    "sub": lambda *_: (1.0, -1.0),
+    "mul": lambda _, left, right: (right, left),
+    "div": lambda result, _, right: (1.0 / right, -result / right),
+    "neg": lambda *_: (-1.0,),
+    "half_turns": lambda *_: (0.0, 0.0),
+    "log_ratio": lambda _, left, right: (1.0 / left, -1.0 / right),
+    "sqrt": lambda result, _: (0.5 / result,),
+    "exp": lambda result, _: (result,),
+    "log": lambda _, operand: (1.0 / operand,),
+    "sin": lambda _, operand: (np.cos(operand),),
+    "cos": lambda _, operand: (-np.sin(operand),),
+    "tan": lambda result, _: (1.0 + result * result,),
+    "arcsin": lambda _, operand: (1.0 / np.sqrt(1.0 - operand * operand),),
+    "arccos": lambda _, operand: (-1.0 / np.sqrt(1.0 - operand * operand),),
+    "arctan": lambda _, operand: (1.0 / (1.0 + operand * operand),),
+}
+
+
+class ByAngle:
+    """Derivatives of the values of a graph by the crank angle, created once each. [1/rad]"""
+
+    def __init__(self, graph: KernelGraph) -> None:
+        self._graph = graph
+        self._derivatives: dict[int, KernelValue] = {}
+
+    def of(self, value: KernelValue) -> KernelValue:
+        """Return the derivative of a value."""
+        for operand in in_order([value], into=lambda node: node.index not in self._derivatives):
+            if operand.index not in self._derivatives:
+                self._derivatives[operand.index] = self._derivative(operand)
+        return self._derivatives[value.index]
+
+    def _derivative(self, value: KernelValue) -> KernelValue:
+        graph, changes = self._graph, [self._derivatives[operand.index] for operand in value.operands]
+        match value.kind:
+            case "constant" | "input" | "reduction":
+                return graph.constant(0.0)
+            case "angle":
+                return self._of_angle(*value.detail)
+            case "pieces":
+                ends, shift = value.detail
+                return graph.pieces(ends, tuple(changes), shift)
+            case "delayed":
+                return graph.delayed(changes[0], value.detail)
+            case "choose":
+                return graph.apply("choose", value.operands[0], *changes[1:])
+        result = graph.constant(0.0)
+        if all(change.is_constant and not number(change) for change in changes):
+            return result
+        for change, partial in zip(changes, PARTIALS[value.kind](value, *value.operands), strict=True):
+            result = result + change * partial
+        return result
+
+    def _of_angle(self, function: str, multiple: int, shift: float) -> KernelValue:
+        if function in ("angle", "within"):
+            return self._graph.constant(multiple * (1.0 if function == "angle" else 180 / math.pi))
+        other, sign = _OF_ANGLE[function]
+        return self._graph.angle(other, multiple, shift) * (sign * multiple)

@@ -39,8 +39,7 @@ from crankwork.formula.traced_value import (
     in_order,
     unique_sorted,
 )
-from crankwork.kernel.derivative import ByAngle
-from crankwork.kernel.graph import KernelGraph, KernelValue, LawEnd
+from crankwork.kernel.graph import ByAngle, KernelGraph, KernelValue, LawEnd
 from crankwork.kernel.graph import in_order as values_in_order
 
 Array = NDArray[np.float64]

@@ -18,7 +18,7 @@ from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import Closure, LinkMotion, in_link_frame
 from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
-from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure, Positions, point_of
+from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure, Positions, point_of, solve_positions
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Point
@@ -204,7 +204,7 @@ def _start_by_homotopy(equations: LoopClosure, given: Array, boundary: ChainBoun
     while still > 0 and step > _SMALLEST_STEP:
         target = max(still - step, 0.0)
         _, jacobian = equations.residual(q, boundary, positions)
-        guess = q + _solved(jacobian, (target - still) * first)
+        guess = q + solve_positions(jacobian, (target - still) * first)
         corrected, _ = _newton(equations, guess, boundary, positions, target * first)
         if np.max(np.abs(corrected - guess) / equations.scale) < _FARTHEST:
             q, still, step = corrected, target, 2 * step
@@ -282,7 +282,7 @@ def _newton(
         value, jacobian = equations.residual(q[active], boundary, positions[active])
         if iteration == 0:
             miss[active] = np.abs(value).max(axis=1)
-        step = _solved(jacobian, aim - value)
+        step = solve_positions(jacobian, aim - value)
         q[active] += step
         active = active[~(np.max(np.abs(step) / equations.scale, axis=1) < _LAST_STEP)]
     q[active] = np.nan
@@ -294,21 +294,10 @@ def _derivatives(equations: LoopClosure, q: Array, boundary: ChainBoundary, posi
     _, jacobian = equations.residual(q, boundary, positions)
     still = np.zeros_like(q)
     first, _ = equations.residual_derivatives(q, still, still, boundary, positions)
-    q_1 = _solved(jacobian, -first)
+    q_1 = solve_positions(jacobian, -first)
     _, second = equations.residual_derivatives(q, q_1, still, boundary, positions)
-    q_2 = _solved(jacobian, -second)
+    q_2 = solve_positions(jacobian, -second)
     return _Solution(q, q_1, q_2, np.linalg.det(jacobian))
-
-
-def _solved(matrix: Array, right: Array) -> Array:
-    """Return the solutions of linear systems, NaN where the matrix is singular."""
-    try:
-        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0], dtype=float)
-    except np.linalg.LinAlgError:
-        regular = np.linalg.det(matrix) != 0
-        solution = np.full_like(right, np.nan)
-        solution[regular] = np.linalg.solve(matrix[regular], right[regular, :, None])[..., 0]
-        return solution
 
 
 def _as_motion(

@@ -17,8 +17,15 @@ import numpy as np
 
 from crankwork.kinematics.assembly import singular_between, suspect_intervals
 from crankwork.kinematics.chain_solver import as_chain
-from crankwork.kinematics.configuration_coordinates import Configurations, Coordinate, rod_of, slider_place
-from crankwork.kinematics.configuration_curve import ConfigurationCurve, PositionEquations, trace_curve
+from crankwork.kinematics.configuration_curve import (
+    ConfigurationCurve,
+    Configurations,
+    Coordinate,
+    PositionEquations,
+    rod_of,
+    slider_place,
+    trace_curve,
+)
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dead_centres import bracketed_roots
 from crankwork.kinematics.dyads import LinkMotion, fixed_point

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -12,8 +12,13 @@ from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure
+from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, in_link_frame
+from crankwork.kinematics.kinematic_coefficients import Transfer
+from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure, solve_positions
 from crankwork.locale import ErrorMessage
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
+from crankwork.mechanism.dyads import Guide
+from crankwork.mechanism.mechanism import Mechanism
 
 # relative differences of lengths below the first count as equal, below the second as nearly equal
 EQUAL = 1e-9
@@ -73,7 +78,7 @@ class PositionEquations:
             value, jacobian = self.residual(u[active])
             offset = np.sum(normal[active] * (u[active] - guess[active]), axis=-1, keepdims=True)
             matrix = np.concatenate([jacobian, normal[active, None, :]], axis=1)
-            step = _solved(matrix, -np.concatenate([value, offset], axis=1))
+            step = solve_positions(matrix, -np.concatenate([value, offset], axis=1))
             u[active] += step
             active = active[~(np.max(np.abs(step), axis=1) < _LAST_STEP)]
             if not active.size:
@@ -87,7 +92,7 @@ class PositionEquations:
         matrix = np.concatenate([jacobian, along[:, None, :]], axis=1)
         right = np.zeros(u.shape)
         right[:, -1] = 1.0
-        tangent = _solved(matrix, right)
+        tangent = solve_positions(matrix, right)
         tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
         return tangent, np.linalg.det(matrix)
 
@@ -112,7 +117,7 @@ class PositionEquations:
             matrix[count:-1, :size], matrix[count:-1, size:-1] = curvature, jacobian[0].T
             matrix[-1, size:-1] = 2 * w
             right = np.concatenate([value[0] + miss * first, jacobian[0].T @ w, [w @ w - 1.0]])
-            step = _solved(matrix[None], -right[None])[0]
+            step = solve_positions(matrix[None], -right[None])[0]
             u, w, miss = u + step[:size], w + step[size:-1], miss + float(step[-1])
             if not np.max(np.abs(step)) < 1.0:
                 return None
@@ -140,13 +145,6 @@ class PositionEquations:
         gradient = np.einsum("e,nek->nk", w, jacobian)
         second = (gradient[: len(u)] - gradient[len(u) :]) / (2 * step)
         return np.asarray((second + second.T) / 2)
-
-
-def _solved(matrix: Array, right: Array) -> Array:
-    try:
-        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
-    except np.linalg.LinAlgError:
-        return np.full_like(right, np.nan)
 
 
 @dataclass(frozen=True)
@@ -367,3 +365,57 @@ class _Follower:
         return ConfigurationCurve(
             self.system, arc, knots, tangents, is_closed=False, crossings=crossings, near_crossings=near, stated=start
         )
+
+
+class Configurations(NamedTuple):
+    """Some positions on a circuit: directions and frames of all links, with derivatives by the arc."""
+
+    angles: dict[str, Transfer]
+    frames: dict[str, LinkMotion]
+
+
+Coordinate = Callable[[Configurations], Transfer]
+
+
+def link_angle(name: str) -> Coordinate:
+    """Return the direction of a link from the x axis. [rad]"""
+    return lambda poses: poses.angles[name]
+
+
+def driver_coordinate(mechanism: Mechanism) -> Coordinate:
+    """Return the driver's coordinate: a crank angle or an angle between links [rad], a distance or a length [m]."""
+    driver = mechanism.driver
+    match driver:
+        case DrivingSlider():
+            return slider_place(driver.guide, driver.link)
+        case Cylinder():
+            return slider_place(Guide(link=driver.link), rod_of(driver.link))
+        case LinkMotor():
+            return relative_angle(*driver.links)
+
+    def coordinate(poses: Configurations) -> Transfer:
+        angle = poses.angles[driver.link]
+        rate = driver.direction * angle.position_1
+        return Transfer(driver.direction * (angle.position - driver.start), rate, angle.position_2)
+
+    return coordinate
+
+
+def relative_angle(link: str, other: str) -> Coordinate:
+    """Return the angle from one link to another. [rad]"""
+    return lambda poses: Transfer(*(b - a for a, b in zip(poses.angles[link], poses.angles[other], strict=True)))
+
+
+def slider_place(guide: Guide, piece: str) -> Coordinate:
+    """Return the distance of a sliding piece along its guide. [m]"""
+
+    def coordinate(poses: Configurations) -> Transfer:
+        line = guide_on_link(poses.frames[guide.link], guide) if guide.link else fixed_guide(guide)
+        return in_link_frame(line, poses.frames[piece].origin).x
+
+    return coordinate
+
+
+def rod_of(link: str) -> str:
+    """Return the name of the rod of a link whose length changes."""
+    return f"{link}.rod"

@@ -17,7 +17,7 @@ from numpy.polynomial import chebyshev
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.circuits import Circuit, CircuitPart, assembled_stretches, circuit_through
-from crankwork.kinematics.configuration_coordinates import Configurations, driver_coordinate
+from crankwork.kinematics.configuration_curve import Configurations, driver_coordinate
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import LinkMotion, rotated_frame
 from crankwork.kinematics.position_analysis import assembled, place

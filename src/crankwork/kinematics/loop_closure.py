@@ -233,3 +233,18 @@ def line_at(line: LinkMotion, positions: Positions) -> LinkMotion:
     """Return the motion of a line at some of the positions."""
     cos, sin, angle_1, angle_2 = (value[positions] if value.ndim else value for value in line[1:])
     return LinkMotion(point_at(line.origin, positions), cos, sin, angle_1, angle_2)
+
+
+def solve_positions(matrix: Array, right: Array) -> Array:
+    """Return the solutions of linear systems, NaN where the position is unknown or singular.
+
+    `matrix` and `right`: a system for each position, shape (n, k, k), (n, k).
+    """
+    try:
+        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
+    except np.linalg.LinAlgError:
+        known = np.isfinite(matrix).all(axis=(-2, -1)) & np.isfinite(right).all(axis=-1)
+        known = known & np.asarray(np.linalg.det(np.where(known[:, None, None], matrix, 0.0)) != 0)
+        solution = np.full_like(right, np.nan)
+        solution[known] = np.linalg.solve(matrix[known], right[known, :, None])[..., 0]
+        return solution

@@ -46,52 +46,31 @@ def piston_motion(slider_crank: SliderCrank, grid: CrankGrid, method: Method = E
     lam = slider_crank.rod_ratio
     swing = rod_swing(slider_crank, grid, lam)
     angle = rod_angle(swing.sin, swing.cos)
-    piston = piston_transfer(slider_crank, grid, method, swing, lam)
     if method.kinematics == "textbook":
-        rod_1 = textbook_rod_transfer_1(lam, grid.cos)
-        rod_2 = textbook_rod_transfer_2(lam, grid.sin)
-        return PistonMotion(piston, Transfer(angle, rod_1, rod_2), swing)
+        rod = Transfer(angle, textbook_rod_transfer_1(lam, grid.cos), textbook_rod_transfer_2(lam, grid.sin))
+        return PistonMotion(textbook_piston(slider_crank, grid, lam), rod, swing)
+    is_series = method.kinematics == "series"
+    piston = (
+        series_transfer(slider_crank, grid, method.order) if is_series else exact_piston(slider_crank, grid, swing, lam)
+    )
     rod_1 = rod_transfer_1(lam, grid.cos, swing.cos)
     rod_2 = rod_transfer_2(rod_1, lam, grid.sin, swing.sin, swing.cos)
     return PistonMotion(piston, Transfer(angle, rod_1, rod_2), swing)
 
 
-def piston_transfer(
-    slider_crank: SliderCrank, grid: CrankGrid, method: Method, swing: RodSwing | None = None, lam: Value = None
-) -> Transfer:
-    """Return the motion of the piston by the method asked for (kolchin_demidov_2008, ch. 6). [m]
-
-    `swing`: functions of the rod angle there, where they are known already; `lam`: its rod ratio, where that is known
-    already.
-    """
-    lam = slider_crank.rod_ratio if lam is None else lam
-    if method.kinematics == "textbook":
-        return textbook_piston(slider_crank, grid, lam)
-    if method.kinematics == "series":
-        return series_transfer(slider_crank, grid, method.order)
-    return exact_piston(slider_crank, grid, rod_swing(slider_crank, grid, lam) if swing is None else swing, lam)
-
-
-def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing, lam: Value = None) -> Transfer:
-    """Return the closed-form displacement of the piston and its derivatives (kolchin_demidov_2008, ch. 6). [m]
-
-    `lam`: its rod ratio, where that is known already.
-    """
+def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing, lam: Value) -> Transfer:
+    """Return the closed-form displacement of the piston and its derivatives (kolchin_demidov_2008, ch. 6). [m]"""
     r, l, e = slider_crank  # noqa: E741
     return Transfer(
         piston_displacement(r, grid.cos, l, swing.sin, swing.cos, e),
         piston_transfer_1(r, swing.sin_sum, swing.cos),
-        piston_transfer_2(r, slider_crank.rod_ratio if lam is None else lam, grid.cos, swing.cos_sum, swing.cos),
+        piston_transfer_2(r, lam, grid.cos, swing.cos_sum, swing.cos),
     )
 
 
-def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = None) -> Transfer:
-    """Return the two-term displacement of the piston and its derivatives (kolchin_demidov_2008, ch. 6). [m]
-
-    `lam`: its rod ratio, where that is known already.
-    """
+def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid, lam: Value) -> Transfer:
+    """Return the two-term displacement of the piston and its derivatives (kolchin_demidov_2008, ch. 6). [m]"""
     r, _, e = slider_crank
-    lam = slider_crank.rod_ratio if lam is None else lam
     return Transfer(
         textbook_displacement(r, grid.cos, lam, grid.cos_2, e, grid.sin),
         textbook_transfer_1(r, grid.sin, lam, grid.sin_2, e, grid.cos),

@@ -22,6 +22,8 @@ from crankwork.kinematics.dyads import (
     DrivenAngle,
     LinkMotion,
     Through,
+    branch_sign,
+    change_point_replacement,
     crank_motion,
     fixed_guide,
     fixed_point,
@@ -43,7 +45,6 @@ from crankwork.kinematics.loop_closure import ChainBoundary, is_stretched
 from crankwork.kinematics.motion_laws import extent, law_at
 from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
-from crankwork.kinematics.traced_change_points import branch_sign, change_point_replacement
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.change_point import ChangePointPassage
@@ -351,18 +352,10 @@ class Closures:
 
 def _title(group: Dyad | Chain) -> ErrorMessage:
     """Return the name of a group in messages."""
-    match group:
-        case RRR():
-            pair = group.link_a, group.link_b
-        case RRP():
-            pair = group.link, group.piece
-        case RPR() | RPP():
-            pair = group.link, group.block
-        case PRP():
-            pair = group.block_a, group.block_b
-        case Chain():
-            return ErrorMessage("group_of", names=", ".join(link.name for link in group.links))
-    return ErrorMessage("dyad_of", kind=type(group).__name__, first=pair[0], second=pair[1])
+    if isinstance(group, Chain):
+        return ErrorMessage("group_of", names=", ".join(group_links(group)))
+    first, second = group_links(group)
+    return ErrorMessage("dyad_of", kind=type(group).__name__, first=first, second=second)
 
 
 @formula("link_length", _SOURCE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Literal, NamedTuple
 
 from crankwork.errors import Problem
 from crankwork.formula.expression import Value, formula
@@ -269,3 +270,30 @@ def _key(linkage: Linkage, name: str) -> str:
 def chain_mobility(n_i: Value, p_5: Value, p_4: Value) -> Value:
     """Degrees of freedom of a planar chain whose higher pairs are gears."""
     return 3 * n_i - 2 * p_5 - p_4
+
+
+FourBarType = Literal["crank-rocker", "double crank", "double rocker", "rocker-crank", "triple rocker", "change point"]
+
+
+class Grashof(NamedTuple):
+    """The type of a four-bar linkage, and p + q - s - l: positive if its shortest link turns fully. [m]"""
+
+    type: FourBarType
+    margin: float
+
+
+def grashof(crank: float, coupler: float, rocker: float, ground: float) -> Grashof:
+    """Return the type of a four-bar linkage (norton_2012, ch. 2).
+
+    Type and margin; `change point` where the links can all come into line. `crank`, `coupler`, `rocker` and `ground`:
+    the lengths; the crank is the link that drives [m].
+    """
+    lengths = (crank, coupler, rocker, ground)
+    shortest, longest = min(lengths), max(lengths)
+    margin = sum(lengths) - 2 * shortest - 2 * longest
+    if abs(margin) <= 1e-12 * longest:
+        return Grashof("change point", 0.0)
+    if margin < 0:
+        return Grashof("triple rocker", margin)
+    types: tuple[FourBarType, ...] = ("crank-rocker", "double rocker", "rocker-crank", "double crank")
+    return Grashof(types[lengths.index(shortest)], margin)

@@ -21,8 +21,8 @@ from crankwork.description.machine_file import Setting
 from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import Kernel
+from crankwork.kernel.gradient import part_key
 from crankwork.kernel.lowering import NotCompiledError
-from crankwork.kernel.reduction_adjoints import part_key
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.report.dataset import check_extras

@@ -11,7 +11,7 @@ from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import Value, formula
 from crankwork.loads.gas import compression_ratio
 from crankwork.locale import ErrorMessage
-from crankwork.working_cycle import charge, grinevetsky, performance
+from crankwork.working_cycle import charge, engine_size, grinevetsky
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners
 from crankwork.working_cycle.fuels import CycleError
 
@@ -83,7 +83,7 @@ def assigned_cycle(data: AssignedData) -> CalculatedCycle:
     else:
         worked(grinevetsky.expansion_pressure)
     if 1.0 not in (worked["compression_exponent"].value, worked["expansion_exponent"].value):
-        worked(performance.theoretical_mean_pressure)
+        worked(engine_size.theoretical_mean_pressure)
     worked.absent("lost_stroke")
     names = (
         "residual_pressure", "intake_pressure", "compression_pressure", "combustion_pressure", "expansion_pressure",

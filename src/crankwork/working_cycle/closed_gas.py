@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.formula.calculation import Calculation
@@ -31,7 +30,6 @@ from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, check_heat
 _MAX_EVALUATIONS = 10_000
 # hydrogen with oxygen releases 13 MJ/kg
 _MAX_HEAT = 2e7
-Flags = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -65,37 +63,16 @@ class ClosedGas:
         start, end = self.burning
         return np.asarray(np.clip(burning_progress(degrees, start, end - start), 0.0, 1.0))
 
-    def burnt(self, degrees: Array) -> Array:
-        """Return the burnt fraction at crank angles [deg]. [-]"""
-        return np.asarray(wiebe_burnt_fraction(self._progress(degrees), self.data.burning_shape))
-
-    def is_burning(self, degrees: Array) -> Flags:
-        """Return whether burning has begun at crank angles [deg]."""
-        return np.asarray(degrees > self.burning[0])
-
-    def gas_speed(self, volume: Array, pressure: Array, has_burnt: Flags) -> Array:
-        """Return the gas speed at the walls at volumes [m3] and pressures [Pa]. [m/s]"""
+    def _wall_rate(self, volume: Array, pressure: Array, *, has_burnt: bool) -> Array:
+        """Return the heat to the walls at volumes [m3] and pressures [Pa]. [J/rad]"""
         data = self.data
         motored = gas_formulas.polytropic_pressure(data.shut_pressure, self.shut_volume, volume, data.motored_exponent)
-        factors = EXPANSION
         # late in the expansion of a cold charge the difference may be negative, but combustion never slows the gas down
         above = np.maximum(pressure, motored)
-        factor = np.where(has_burnt, factors.burning, 0.0)
+        factors = EXPANSION if has_burnt else COMPRESSION
         shut = (data.shut_temperature, data.shut_pressure, self.shut_volume)
-        return np.asarray(
-            woschni_gas_speed(factors.piston, self.piston_speed, factor, self.swept, *shut, above, np.asarray(motored))
-        )
-
-    def wall_rate(self, degrees: Array, pressure: Array, has_burnt: Flags) -> Array:
-        """Return the heat to the walls at crank angles [deg] and pressures [Pa]. [J/rad]"""
-        if not self.data.has_wall_loss:
-            return np.zeros_like(pressure)
-        return self._wall_rate(self.volume_at(degrees), pressure, has_burnt)
-
-    def _wall_rate(self, volume: Array, pressure: Array, has_burnt: Flags) -> Array:
-        data = self.data
+        speed = woschni_gas_speed(factors.piston, self.piston_speed, factors.burning, self.swept, *shut, above, motored)
         temperature = gas_temperature(pressure, volume, self.mass, data.gas_constant)
-        speed = self.gas_speed(volume, pressure, has_burnt)
         coefficient = woschni_coefficient(data.bore, pressure, temperature, speed)
         x = (volume - self.clearance) / (math.pi * data.bore**2 / 4)
         area = wall_area(*self.areas, math.pi, data.bore, x)
@@ -116,7 +93,7 @@ class ClosedGas:
             burning = wiebe_burning_rate(self._progress(degrees), data.burning_shape, duration)
         wall = np.zeros_like(pressure)
         if data.has_wall_loss:
-            wall = self._wall_rate(volume, pressure, np.full(len(volume), stage.has_burnt))
+            wall = self._wall_rate(volume, pressure, has_burnt=stage.has_burnt)
         rise = pressure_rise(ratio, volume, self.heat, burning, wall, pressure, growth)
         return np.array([rise, pressure * growth, wall])
 

@@ -9,9 +9,9 @@ from typing import Literal
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.traced_value import absent, given
 from crankwork.locale import ErrorMessage
+from crankwork.working_cycle.engine_size import MECHANICAL_LOSSES
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel
 from crankwork.working_cycle.heat_capacities import HeatLaw, law_zero
-from crankwork.working_cycle.performance import MECHANICAL_LOSSES
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class GrinevetskyData:
     air_gas_constant: float = 287.0
     strokes: Literal[4, 2] = 4  # Strokes per cycle
     cylinders: int = 1  # Number of cylinders
-    # Coefficients of p_m = a + b v_p, or their key in `performance.MECHANICAL_LOSSES` [Pa, Pa s/m]
+    # Coefficients of p_m = a + b v_p, or their key in `engine_size.MECHANICAL_LOSSES` [Pa, Pa s/m]
     mechanical_loss: tuple[float, float] | str | None = None
     power: float | None = None  # Target of effective power, from which bore and stroke follow [W]
     stroke_bore_ratio: float = 1.0  # Stroke over bore, if they follow from the power [-]

@@ -10,13 +10,13 @@ import numpy as np
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
-from crankwork.formula.validity_ranges import range_notices
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import clearance_volume, piston_area, swept_volume
 from crankwork.locale import ErrorMessage
-from crankwork.working_cycle import charge, engine_size, performance
+from crankwork.working_cycle import charge, engine_size
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners, Notice
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs, with_usual_values
+from crankwork.working_cycle.engine_size import effective_mean_pressure, mechanical_loss_pressure
 from crankwork.working_cycle.fuels import FUELS, CycleError, burning
 from crankwork.working_cycle.heat_capacities import (
     as_counted,
@@ -25,8 +25,7 @@ from crankwork.working_cycle.heat_capacities import (
     product_coefficients,
     residual_heat,
 )
-from crankwork.working_cycle.performance import effective_mean_pressure, mechanical_loss_pressure
-from crankwork.working_cycle.usual_ranges import cycle_notices
+from crankwork.working_cycle.usual_ranges import cycle_notices, range_notices
 
 # inputs that are shown with the results
 _SHOWN = (
@@ -100,7 +99,7 @@ def _compression(worked: Calculation, data: GrinevetskyData) -> None:
         worked(function)
     if data.lost_stroke:
         closed = worked["volumetric_efficiency"].named("volumetric_efficiency.before_ports")
-        worked(performance.ported_volumetric_efficiency, eta_v=closed)
+        worked(engine_size.ported_volumetric_efficiency, eta_v=closed)
         worked(charge.geometric_compression_ratio)
     worked(charge.compression_pressure)
     temperature = worked(charge.compression_temperature).value
@@ -176,17 +175,17 @@ def _whole_expansion(worked: Calculation, data: GrinevetskyData) -> dict[str, Tr
 
 
 def _indicated(worked: Calculation, data: GrinevetskyData) -> None:
-    worked(performance.theoretical_mean_pressure, **_whole_expansion(worked, data))
-    worked(performance.filled_mean_pressure)
-    worked(performance.indicated_efficiency)
-    worked(performance.fuel_consumption, "indicated_fuel_consumption", eta_e=worked["indicated_efficiency"])
+    worked(engine_size.theoretical_mean_pressure, **_whole_expansion(worked, data))
+    worked(engine_size.filled_mean_pressure)
+    worked(engine_size.indicated_efficiency)
+    worked(engine_size.fuel_consumption, "indicated_fuel_consumption", eta_e=worked["indicated_efficiency"])
 
 
 def _effective(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate the effective results and the clearance volume of a sized engine."""
-    worked(performance.mechanical_efficiency)
-    worked(performance.effective_efficiency)
-    worked(performance.fuel_consumption)
+    worked(engine_size.mechanical_efficiency)
+    worked(engine_size.effective_efficiency)
+    worked(engine_size.fuel_consumption)
     work_power(worked, data)
     geometric_ratio = worked.known.get("geometric_compression_ratio", worked["compression_ratio"])
     worked(clearance_volume, r_c=geometric_ratio)

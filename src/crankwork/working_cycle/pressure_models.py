@@ -7,10 +7,10 @@ heat goes to the walls, and the first law is integrated over the crank angle. Th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,13 +22,9 @@ from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.curves import hermite
 from crankwork.loads.indicator import (
-    DiagramPoint,
     IndicatorDiagram,
-    Piece,
     Segment,
     VolumeAt,
-    quadrature,
-    solve_diagram,
 )
 from crankwork.loads.pressure import at_angle, traced_pressure
 from crankwork.locale import ErrorMessage
@@ -51,8 +47,16 @@ from crankwork.working_cycle.closed_gas import (
     woschni_coefficient,
     woschni_gas_speed,
 )
+from crankwork.working_cycle.diagram_parts import (
+    DiagramPart,
+    NamedPoint,
+    connecting_cubic,
+    constant_pressure,
+    diagram_of_parts,
+    from_before_zero,
+    within_cycle,
+)
 from crankwork.working_cycle.fuels import CycleError
-from crankwork.working_cycle.gas_exchange import connecting_cubic, constant_pressure, from_before_zero, within_cycle
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.rounding import (
     Rounding,
@@ -68,13 +72,11 @@ from crankwork.working_cycle.usual_ranges import heat_notices
 _PROBES = (0.0, 67.0, 131.0, 213.0)
 # Solving takes most of a run, and a file is solved once to check it and once to analyse it: cached.
 _MAX_SOLUTIONS = 16
-_SOLUTIONS: dict[object, HeatReleaseResult] = {}
+_SOLUTIONS: dict[object, Calculated] = {}
 _STEP, _LEAST_STEPS, _DOUBLINGS = 0.5, 40, 5
 _AGREEMENT = 1e-9
 _FINE = 2001
 _RELATIVE, _ABSOLUTE = 1e-11, 1e-12
-Points = dict[str, DiagramPoint]
-_AngleOf = Callable[[float, float, float], float]
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,7 @@ class CornerPressure:
         del volume_rate_at
         cycle = self.cycle
         # if corners are rounded, the sharp one is only looked at
-        sharp = partial(_sharp_diagram, cycle.corners, cycle.angle, volume_at, dead_centres)
+        sharp = partial(sharp_diagram, cycle.corners, cycle.angle, volume_at, dead_centres)
         notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
             return Calculated(sharp(), cycle.trace, notices, sharp)
@@ -119,18 +121,9 @@ class CornerPressure:
         theory = self.cycle.corners
         corners = theory._replace(p_z=theory.p_c, p_b=theory.p_a, n2=theory.n1, rho=absent("cut_off", 1.0))
         if self.timing is None:
-            return Calculated(_sharp_diagram(corners, self.cycle.angle, volume_at, dead_centres), {}, ())
+            return Calculated(sharp_diagram(corners, self.cycle.angle, volume_at, dead_centres), {}, ())
         diagram = motored_diagram(_numbers(corners), self.timing, self.rounding, volume_at, dead_centres)
         return Calculated(_with_traced_segments(diagram, corners), {}, ())
-
-
-def _sharp_diagram(
-    corners: Corners, angle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
-) -> IndicatorDiagram:
-    """Return the diagram of corners in a cylinder; `angle`: of the cycle. [deg]"""
-    points, pieces = theoretical_diagram(corners, angle, volume_at, dead_centres)
-    diagram = solve_diagram(points, pieces, angle, volume_at, dead_centres=dead_centres)
-    return _with_traced_segments(diagram, corners)
 
 
 def _theory(corners: Corners) -> dict[str, TracedValue]:
@@ -150,16 +143,11 @@ def _with_traced_segments(diagram: IndicatorDiagram, corners: Corners) -> Indica
 
     def with_inputs(segment: Segment) -> Segment:
         if segment.law == "polytropic":
-            origin = _ORIGINS.get(segment.origin, segment.origin)
-            return replace(segment, origin=origin, operands=lines[origin])
+            return replace(segment, operands=lines[segment.origin])
         inputs = constants.get(segment.pressures[0], ()) if segment.law == "constant" else ()
-        return replace(segment, places=(), operands=inputs)
+        return replace(segment, operands=inputs)
 
     return replace(diagram, segments=tuple(with_inputs(segment) for segment in diagram.segments))
-
-
-# names of the points of the calculation, by the reference states of polytropes in rounded diagrams
-_ORIGINS = {"~start": "a", "~burnt": "z"}
 
 
 @dataclass(frozen=True)
@@ -172,18 +160,7 @@ class HeatReleasePressure:
     traced: ClassVar[None] = None
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
-        """Return the diagram in a cylinder."""
-        return self._solved(volume_at, volume_rate_at, dead_centres).calculated
-
-    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
-        """Return the diagram of a cylinder without combustion; the walls still take heat."""
-        cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
-        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
-
-    def _solved(
-        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-    ) -> HeatReleaseResult:
-        """Return the solution, cached by data and cylinder."""
+        """Return the diagram in a cylinder; solutions are kept by data and cylinder."""
         cylinder = tuple(volume_at(np.array(_PROBES)).tolist())
         key = (self.data, cylinder, dead_centres)
         if key not in _SOLUTIONS:
@@ -191,6 +168,11 @@ class HeatReleasePressure:
                 _SOLUTIONS.clear()
             _SOLUTIONS[key] = heat_release(self.data, volume_at, volume_rate_at, dead_centres)
         return _SOLUTIONS[key]
+
+    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram of a cylinder without combustion; the walls still take heat."""
+        cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
+        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
 
 
 @dataclass(frozen=True)
@@ -222,34 +204,9 @@ class MisfirePressure:
         return firing._replace(diagram=diagram, theoretical=None)
 
 
-class HeatReleaseTrace(NamedTuple):
-    """The closed period point by point, arrays of shape (n,).
-
-    Crank angle [deg], pressure [Pa], temperature [K], burnt fraction [-], pressure rise [Pa/rad], heat to the
-    walls [J/rad]. Angles continue past the end of the cycle.
-    """
-
-    degrees: Array
-    pressure: Array
-    temperature: Array
-    burnt: Array
-    pressure_rise: Array
-    wall_heat_rate: Array
-
-
-@dataclass(frozen=True)
-class HeatReleaseResult:
-    """A cycle from heat release."""
-
-    calculated: Calculated  # Diagram, single values, notices
-    history: HeatReleaseTrace  # The closed period point by point
-    # Work and heat to the walls by quadrature over the diagram, and the residual of the first law with them [J]
-    again: Mapping[str, float]
-
-
 def heat_release(
     data: HeatReleaseData, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-) -> HeatReleaseResult:
+) -> Calculated:
     """Return the cycle of a heat release (heywood_1988, ch. 9 and 12)."""
     dead_centres = from_before_zero(dead_centres)
     worked = Calculation()
@@ -257,12 +214,12 @@ def heat_release(
     periods = [stage for stage in stages(data, dead_centres) if stage.end > stage.start]
     solved = _solved(gas, periods, tuple(worked.known.values()))
     segments = [segment for segment, _ in solved]
-    history = _trace(gas, solved)
     # the pressure has been integrated already: its column needs no volume
     diagram = _diagram(data, segments, dead_centres, (worked["residual_pressure"], worked["intake_pressure"]))
     pressure = traced_pressure(diagram, absent("cylinder_volume"))
     work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
-    stored = gas.energy_change(history.temperature[-1])
+    ends = np.array([segments[-1].end]), segments[-1].pressures[-1:]
+    stored = gas.energy_change(float(gas.temperature(*ends)[0]))
     # combustion ends before the exhaust opens
     burnt = wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
     trace = {"fuel_heat": worked["fuel_heat"], "heat_released": (worked["fuel_heat"] * burnt).named("heat_released")}
@@ -272,20 +229,18 @@ def heat_release(
     }
     left = trace["heat_released"] - trace["wall_heat"] - trace["closed_work"] - trace["internal_energy_change"]
     trace["first_law_residual"] = left.named("first_law_residual")
-    trace |= _extremes(gas, periods, segments, history, pressure)
+    trace |= _extremes(gas, periods, segments, pressure)
     trace["cylinder_temperature_max"] = _hottest(gas, trace, pressure, worked)
     trace["indicated_work"] = TracedValue(
         ProcedureValue(diagram.work(volume_at), "integral", (pressure,)), "indicated_work"
     )
-    again = _by_quadrature(gas, periods, segments)
-    again["first_law_residual"] = trace["heat_released"].value - again["wall_heat"] - again["closed_work"] - stored
     at_peak = worked.again(".peak")
     work_peak(gas, trace, at_peak)
     peak = {
         traced.key: traced for traced in (*worked.found.values(), *at_peak.found.values()) if traced.key not in trace
     }
     calculated = Calculated(diagram, trace, (), peak=peak)
-    return HeatReleaseResult(calculated._replace(notices=heat_notices(data, gas, calculated.values)), history, again)
+    return calculated._replace(notices=heat_notices(data, gas, calculated.values))
 
 
 def _solved(gas: ClosedGas, periods: list[Stage], inputs: tuple[TracedValue, ...]) -> list[tuple[Segment, Array]]:
@@ -319,30 +274,8 @@ def _curve(gas: ClosedGas, period: Stage, dense: VolumeAt, count: int, ends: tup
     return Segment(period.start, period.end, "rounded", knots, pressures, slopes)
 
 
-def _trace(gas: ClosedGas, solved: list[tuple[Segment, Array]]) -> HeatReleaseTrace:
-    parts = [segment for segment, _ in solved]
-    keep = [slice(1 if number else 0, None) for number in range(len(parts))]
-    degrees = np.concatenate([segment.knots[part] for segment, part in zip(parts, keep, strict=True)])
-    pressure = np.concatenate([segment.pressures[part] for segment, part in zip(parts, keep, strict=True)])
-    slopes = np.degrees(np.concatenate([segment.slopes[part] for segment, part in zip(parts, keep, strict=True)]))
-    temperature = gas.temperature(degrees, pressure)
-    wall = gas.wall_rate(degrees, pressure, gas.is_burning(degrees))
-    return HeatReleaseTrace(degrees, pressure, temperature, gas.burnt(degrees), slopes, wall)
-
-
-def _by_quadrature(gas: ClosedGas, periods: list[Stage], segments: list[Segment]) -> dict[str, float]:
-    """Return work and heat to the walls as integrals over the diagram, independent of the differential equation."""
-    work = wall = 0.0
-    for period, segment in zip(periods, segments, strict=True):
-        nodes, weights = quadrature(segment.knots)
-        pressure = hermite(segment.knots, segment.pressures, segment.slopes, nodes)
-        work += segment.work(gas.volume_at)
-        wall += float(weights @ gas.wall_rate(nodes, pressure, np.full(len(nodes), period.has_burnt)))
-    return {"closed_work": work, "wall_heat": wall}
-
-
 def _extremes(
-    gas: ClosedGas, periods: list[Stage], segments: list[Segment], history: HeatReleaseTrace, column: TracedValue
+    gas: ClosedGas, periods: list[Stage], segments: list[Segment], column: TracedValue
 ) -> dict[str, TracedValue]:
     """Return the greatest pressure, temperature and pressure rise, with their angles."""
     diagram = IndicatorDiagram(tuple(segments), {})
@@ -353,13 +286,11 @@ def _extremes(
     def temperature(degrees: Array) -> Array:
         return gas.temperature(degrees, pressure(degrees))
 
+    knots = diagram.breaks
     extremes: dict[str, TracedValue] = {}
-    for key, function, values in (
-        ("cylinder_pressure", pressure, history.pressure),
-        ("cylinder_temperature", temperature, history.temperature),
-    ):
-        top = int(np.argmax(values))
-        fine = np.linspace(history.degrees[max(top - 1, 0)], history.degrees[min(top + 1, len(values) - 1)], _FINE)
+    for key, function in (("cylinder_pressure", pressure), ("cylinder_temperature", temperature)):
+        top = int(np.argmax(function(knots)))
+        fine = np.linspace(knots[max(top - 1, 0)], knots[min(top + 1, len(knots) - 1)], _FINE)
         extremes |= _greatest(key, [(fine, function(fine))], column, gas.data.cycle)
     steepest = []
     for period, segment in zip(periods, segments, strict=True):
@@ -469,83 +400,57 @@ def _work_walls(pressure: TracedValue, worked: Calculation, factor: GasSpeedFact
     worked(wall_heat_rate, w=(math.pi * worked["rotational_speed"] / 30).named("speed"))
 
 
-def theoretical_diagram(
+def sharp_diagram(
     corners: Corners, cycle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
-) -> tuple[Points, tuple[Piece, ...]]:
-    """Return points and pieces of the theoretical diagram of a cylinder, absolute pressures.
+) -> IndicatorDiagram:
+    """Return the theoretical diagram of a cylinder, absolute pressures.
 
     Four strokes: r, d begin the intake, a ends it; c, z (z' before it if combustion continues at constant pressure), b,
-    e and r end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their closing. For
-    `loads.indicator.solve_diagram`. Source: kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
+    e and r' end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their closing. Source:
+    kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
     """
     top = dead_centres[0] % 360
     # a top dead centre just before 0 begins its cycle at the end of the previous one
     top = top + cycle - 360 if top > 180 else top
     bottom = top + (dead_centres[1] - dead_centres[0]) % 360
+    p_r, p_a, p_c, p_z, p_b, rho, *_ = (corner.value for corner in corners)
     clearance = float(volume_at(np.array([top]))[0])
 
     def angle_of(ratio: float, start: float, end: float) -> float:
         return _angle_of_volume(volume_at, ratio * clearance, start, end)
 
-    if cycle == 360:
-        points, pieces = _two_strokes(corners, top, bottom, angle_of)
+    firing = top + cycle - 360
+    if cycle == 720:
+        begins, opens, compressed = bottom, bottom + 360, "c"
+        first = NamedPoint("r", top, p_r)
+        exchange = [
+            _constant(NamedPoint("d", top, p_a), NamedPoint("a", bottom, p_a)),
+            _constant(NamedPoint("e", opens, p_r), NamedPoint("r'", top + 720, p_r)),
+        ]
     else:
-        points, pieces = _four_strokes(corners, top, bottom, angle_of)
-    return _from_zero(points, pieces, cycle)
-
-
-def _four_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
-    firing = top + 360
-    points = {
-        "r": DiagramPoint(top, corners.p_r.value),
-        "d": DiagramPoint(top, corners.p_a.value),
-        "a": DiagramPoint(bottom, corners.p_a.value, corners.V_a.value or None),
-        "b": DiagramPoint(bottom + 360, corners.p_b.value, corners.V_a.value or None),
-        "e": DiagramPoint(bottom + 360, corners.p_r.value),
-        "r'": DiagramPoint(top + 720, corners.p_r.value),
-    }
-    burning_points, burning = _burning(corners, firing, bottom + 360, angle_of)
-    pieces = [
-        Piece("rounded", ("r", "d")),
-        Piece("constant", ("d", "a")),
-        Piece("polytropic", ("a", "c"), corners.n1.value),
-        *burning,
-        Piece("rounded", ("b", "e")),
-        Piece("constant", ("e", "r'")),
+        opens = begins = bottom
+        if corners.psi.value:
+            opens = angle_of(corners.epsilon.value, top, bottom)
+            begins = angle_of(corners.epsilon.value, top + 360, bottom)
+        first, compressed = NamedPoint("c", top, p_c), "c'"
+        exchange = [_constant(NamedPoint("e", opens, p_a), NamedPoint("a", begins, p_a))]
+    z = NamedPoint("z", angle_of(rho, firing, opens) if rho > 1 else firing, p_z)
+    a, c = NamedPoint("a", begins, p_a), NamedPoint(compressed, top + 360, p_c)
+    parts = [
+        *exchange,
+        DiagramPart("polytropic", (a, c), exponent=corners.n1.value, reference="a"),
+        _constant(NamedPoint("z'", firing, p_z), z),
+        DiagramPart("polytropic", (z, NamedPoint("b", opens, p_b)), exponent=corners.n2.value, reference="z"),
     ]
-    return points | burning_points, pieces
+    of_states = volume_at(np.array([begins, z.angle])).tolist()
+    states = {"a": (p_a, corners.V_a.value or of_states[0]), "z": (p_z, of_states[1])}
+    diagram = diagram_of_parts(parts, cycle, volume_at, states)
+    named = {first.name: (first.angle, first.pressure), **diagram.named}
+    return _with_traced_segments(replace(diagram, named=named), corners)
 
 
-def _two_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
-    opens, shuts = bottom, bottom
-    if corners.psi.value:
-        opens = angle_of(corners.epsilon.value, top, bottom)
-        shuts = angle_of(corners.epsilon.value, top + 360, bottom)
-    points = {
-        "b": DiagramPoint(opens, corners.p_b.value),
-        "e": DiagramPoint(opens, corners.p_a.value),
-        "a": DiagramPoint(shuts, corners.p_a.value),
-        "c'": DiagramPoint(top + 360, corners.p_c.value),
-    }
-    burning_points, burning = _burning(corners, top, opens, angle_of)
-    pieces = [
-        *burning,
-        Piece("rounded", ("b", "e")),
-        Piece("constant", ("e", "a")),
-        Piece("polytropic", ("a", "c'"), corners.n1.value),
-    ]
-    return points | burning_points, pieces
-
-
-def _burning(corners: Corners, firing: float, end: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
-    """Return points and pieces from c over z to b."""
-    points = {"c": DiagramPoint(firing, corners.p_c.value), "z": DiagramPoint(firing, corners.p_z.value)}
-    pieces = [Piece("rounded", ("c", "z"))]
-    if corners.rho.value > 1:
-        points["z'"] = points["z"]
-        points["z"] = DiagramPoint(angle_of(corners.rho.value, firing, end), corners.p_z.value)
-        pieces = [Piece("rounded", ("c", "z'")), Piece("constant", ("z'", "z"))]
-    return points, [*pieces, Piece("polytropic", ("z", "b"), corners.n2.value)]
+def _constant(start: NamedPoint, end: NamedPoint) -> DiagramPart:
+    return DiagramPart("constant", (start, end))
 
 
 def _angle_of_volume(volume_at: VolumeAt, volume: float, small: float, large: float) -> float:
@@ -555,26 +460,3 @@ def _angle_of_volume(volume_at: VolumeAt, volume: float, small: float, large: fl
     if not ends[0] <= volume <= ends[1] * (1 + 1e-12):
         raise CycleError(ErrorMessage("volume_unreached", volume=volume * 1e6, least=ends[0] * 1e6, most=ends[1] * 1e6))
     return solve_monotone(volume_at, volume, low, high)
-
-
-def _from_zero(points: Points, pieces: list[Piece], cycle: float) -> tuple[Points, tuple[Piece, ...]]:
-    """Return the same diagram from 0 instead of from its first dead centre; the piece across the end is cut."""
-    before: list[Piece] = []
-    after: list[Piece] = []
-    moved = dict(points)
-    for piece in pieces:
-        first, last = piece.points[0], piece.points[-1]
-        start, end = (points[name].angle or 0.0 for name in (first, last))
-        if end <= cycle:
-            before.append(piece)
-        elif start >= cycle:
-            after.append(piece)
-        else:
-            pressure = points[first].pressure if piece.law == "constant" else None
-            moved |= {"end": DiagramPoint(cycle, pressure), "start": DiagramPoint(0.0, pressure)}
-            before.append(replace(piece, points=(first, "end")))
-            after.append(replace(piece, points=("start", last), reference=first if piece.exponent else None))
-    for name, point in points.items():
-        if (point.angle or 0.0) > cycle:
-            moved[name] = replace(point, angle=(point.angle or 0.0) - cycle)
-    return moved, (*after, *before)

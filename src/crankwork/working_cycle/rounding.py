@@ -19,21 +19,21 @@ from crankwork.formula.traced_value import FunctionValue, TracedValue, given, se
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads.gas import polytropic_pressure
-from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
+from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt
 from crankwork.loads.traced_diagram import TracedVolume
 from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.calculated_cycle import Notice
-from crankwork.working_cycle.gas_exchange import clip_segment, from_before_zero
-from crankwork.working_cycle.rounded_pieces import (
+from crankwork.working_cycle.diagram_parts import (
     DiagramPart,
     NamedPoint,
-    to_points_and_pieces,
+    clip_segment,
+    diagram_of_parts,
+    from_before_zero,
     traced_pressure_of_parts,
-    without_auxiliary,
 )
 from crankwork.working_cycle.schools import PEAK_LEVEL, SCHOOLS
 
-__all__ = ["RoundedDiagram", "Rounding", "Timing", "filling_factor", "rounded_diagram", "theoretical_work"]
+__all__ = ["RoundedDiagram", "Rounding", "Timing", "rounded_diagram", "theoretical_work"]
 _LEVELS = {"petrol": (0.80, 0.95), "diesel": (0.80, 1.0)}
 _USUAL_FILLING = (0.90, 0.98)
 _USUAL_RISE = (1.15, 1.25)
@@ -45,10 +45,8 @@ _RISING = (0.25, 0.5, 0.75)
 
 
 class RoundedDiagram(NamedTuple):
-    """A rounded diagram: points and pieces for `solve_diagram`, its solution, values and notices."""
+    """A rounded diagram, values and notices."""
 
-    points: Mapping[str, DiagramPoint]
-    pieces: tuple[Piece, ...]
     diagram: IndicatorDiagram
     filling_factor: float
     peak_level: float
@@ -69,9 +67,9 @@ def rounded_diagram(
     """
     corners = corners_of(theory, timing, rounding, volume_at, dead_centres)
     level, notices = _peak_level(corners)
-    points, pieces, diagram, filling = _at_level(corners, level)
+    diagram, filling = _at_level(corners, level)
     notices = (*_deviations(corners), *notices, *_unusual(corners, filling), *_above(corners, level))
-    return RoundedDiagram(points, pieces, without_auxiliary(diagram), filling, level, notices)
+    return RoundedDiagram(diagram, filling, level, notices)
 
 
 def traced_rounded_pressure(
@@ -96,8 +94,7 @@ def traced_rounded_pressure(
         exchange = [DiagramPart("constant", ends)]
     level, _ = _peak_level(corners)
     parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange]
-    states = {"~start": (theory["p_a"], corners.start_volume), "~burnt": (theory["p_z"], corners.burnt_volume)}
-    return traced_pressure_of_parts(parts, timing.cycle, volume, states)
+    return traced_pressure_of_parts(parts, timing.cycle, volume, corners.states)
 
 
 def motored_diagram(
@@ -112,7 +109,7 @@ def motored_diagram(
     `theory`: of the rounded diagram, with expansion along the compression line [SI].
     """
     corners = corners_of(theory, replace(timing, ignition_advance=0.0), rounding, volume_at, dead_centres)
-    return without_auxiliary(_drawn(corners._replace(kind="motored"), 1.0)[2])
+    return _at_level(corners._replace(kind="motored"), 1.0)[0]
 
 
 def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
@@ -123,39 +120,23 @@ def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
         return PEAK_LEVEL[corners.kind] if rounding.peak_level is None else rounding.peak_level, ()
     low, high = _LEVELS[corners.kind]
     for level in (low, high):
-        obtained = _at_level(corners, level)[3]
+        obtained = _at_level(corners, level)[1]
         if (obtained - target) * (1 if level == low else -1) > rounding.tolerance:
             return level, (("round_unreachable", {"wanted": target, "obtained": obtained, "level": level}),)
     for _ in range(60):
         level = (low + high) / 2
-        excess = _at_level(corners, level)[3] - target
+        excess = _at_level(corners, level)[1] - target
         if abs(excess) <= rounding.tolerance:
             break
         low, high = (low, level) if excess > 0 else (level, high)
     return level, ()
 
 
-def _at_level(
-    corners: RoundedCorners, level: float
-) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...], IndicatorDiagram, float]:
+def _at_level(corners: RoundedCorners, level: float) -> tuple[IndicatorDiagram, float]:
     """Return the diagram with a peak at a share of p_z, and its filling factor."""
-    points, pieces, diagram = _drawn(corners, level)
-    return points, pieces, diagram, _filling(corners, diagram)
-
-
-def _drawn(
-    corners: RoundedCorners, level: float
-) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...], IndicatorDiagram]:
-    """Return the diagram with a peak at a share of p_z."""
-    theory = corners.theory
-    references = {
-        "~start": DiagramPoint(None, theory["p_a"], corners.start_volume),
-        "~burnt": DiagramPoint(None, theory["p_z"], corners.burnt_volume),
-    }
     parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
-    points, pieces = to_points_and_pieces(parts, corners.timing.cycle, references)
-    diagram = solve_diagram(points, pieces, corners.timing.cycle, corners.volume_at, dead_centres=corners.dead_centres)
-    return points, pieces, diagram
+    diagram = diagram_of_parts(parts, corners.timing.cycle, corners.volume_at, corners.states)
+    return diagram, _filling(corners, diagram)
 
 
 def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:
@@ -280,22 +261,6 @@ def _above(corners: RoundedCorners, level: float) -> list[Notice]:
     return [("round_above", {"ratio": ratio})] if ratio > _ABOVE else []
 
 
-def filling_factor(
-    theory: Mapping[str, float],
-    timing: Timing,
-    diagram: IndicatorDiagram,
-    volume_at: VolumeAt,
-    dead_centres: tuple[float, float],
-) -> float:
-    """Return the work of a diagram from compression to expansion over that of the theoretical lines. [-]
-
-    `timing`: of two strokes the ports, which bound compression and expansion; of four strokes the cycle alone counts;
-    `diagram`: any diagram in absolute pressure over the same cycle. Source: kolchin_demidov_2008, ch. 4.
-    """
-    bare = replace(timing, ignition_advance=0.0, ignition_delay=0.0)
-    return _filling(corners_of(theory, bare, Rounding(), volume_at, dead_centres), diagram)
-
-
 class RoundedCorners(NamedTuple):
     """Corners independent of the level of the peak: angles [deg], volumes [m3], polytropes.
 
@@ -318,16 +283,21 @@ class RoundedCorners(NamedTuple):
     start_volume: Value
     burnt_volume: Value
 
+    @property
+    def states(self) -> dict[str, tuple[Value, Value]]:
+        """Pressure and volume where compression and expansion begin, by the names of the points. [Pa], [m3]"""
+        return {"a": (self.theory["p_a"], self.start_volume), "z": (self.theory["p_z"], self.burnt_volume)}
+
     def compression(self, *angles: Value) -> list[Value]:
         """Return the pressures on the compression line. [Pa]"""
-        return self._on((self.theory["p_a"], self.start_volume), self.theory["n1"], angles)
+        return self._on("a", self.theory["n1"], angles)
 
     def expansion(self, *angles: Value) -> list[Value]:
         """Return the pressures on the expansion line. [Pa]"""
-        return self._on((self.theory["p_z"], self.burnt_volume), self.theory["n2"], angles)
+        return self._on("z", self.theory["n2"], angles)
 
-    def _on(self, state: tuple[Value, Value], exponent: Value, angles: tuple[Value, ...]) -> list[Value]:
-        return [polytropic_pressure(*state, volume, exponent) for volume in self.volumes(*angles)]
+    def _on(self, state: str, exponent: Value, angles: tuple[Value, ...]) -> list[Value]:
+        return [polytropic_pressure(*self.states[state], volume, exponent) for volume in self.volumes(*angles)]
 
     def volumes(self, *angles: Value) -> list[Value]:
         """Return the volumes at crank angles. [m3]"""
@@ -428,7 +398,7 @@ def compression_parts(corners: RoundedCorners) -> list[DiagramPart]:
         raise CrankworkError(ErrorMessage("events_crossed", names=list(names), angles=numbers))
     points = list(map(NamedPoint, names, places, corners.compression(*places)))
     exponent = corners.theory["n1"]
-    return [DiagramPart("polytropic", pair, exponent=exponent, reference="~start") for pair in pairwise(points)]
+    return [DiagramPart("polytropic", pair, exponent=exponent, reference="a") for pair in pairwise(points)]
 
 
 def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
@@ -440,7 +410,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
         z = NamedPoint("z", burnt, theory["p_z"])
         return [
             DiagramPart("constant", (NamedPoint("y", top, theory["p_z"]), z)),
-            DiagramPart("polytropic", (z, opened), exponent=theory["n2"], reference="~burnt"),
+            DiagramPart("polytropic", (z, opened), exponent=theory["n2"], reference="z"),
         ]
     peak = level * theory["p_z"]
     highest = NamedPoint(SCHOOLS[corners.rounding.school]["highest"], top + corners.rounding.peak_angle, peak)
@@ -454,7 +424,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
     slopes = corners.slope("compression", rising[0].angle), corners.slope("expansion", joined)
     return [
         DiagramPart("rounded", (*rising, highest, join), slopes),
-        DiagramPart("polytropic", (join, opened), exponent=theory["n2"], reference="~burnt"),
+        DiagramPart("polytropic", (join, opened), exponent=theory["n2"], reference="z"),
     ]
 
 

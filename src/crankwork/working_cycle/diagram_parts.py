@@ -1,28 +1,126 @@
-"""Parts of a diagram as named points and pieces: smooth where they meet, and cut at the end of the cycle.
+"""Pieces of an indicator diagram: parts between named points and solved segments, both closed over the cycle.
 
-A rounded piece takes its slopes from its points alone. A point next to each of its ends, at the pressure that
-gives the required three-point end slope, lets it join its neighbours without a corner.
+A rounded part takes its slopes from its points alone. A point next to each of its ends, at the pressure that gives the
+required three-point end slope, lets it join its neighbours without a corner. Gas exchange is simplified: constant
+pressures of exhaust and intake, with smooth monotone transitions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import Piecewise, TracedAngle, TracedValue, to_number
+from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.curves import hermite, hermite_slope, monotone_slopes
 from crankwork.loads.gas import polytropic_pressure
-from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Law, Piece
+from crankwork.loads.indicator import DiagramError, IndicatorDiagram, Law, Segment, VolumeAt
 from crankwork.loads.traced_diagram import column, curve_laws
+from crankwork.locale import ErrorMessage
+
+# parts that begin nearer to another angle begin there; segments are cut more closely [deg]
+_ANGLE_TOLERANCE, _SEGMENT_TOLERANCE = 1e-6, 1e-9
+
+# Crank angle [deg], pressure [Pa], slope [Pa/deg].
+Knot = tuple[float, float, float]
+
+
+def connecting_cubic(start: Knot, end: Knot) -> Segment:
+    """Return one cubic between two knots, with slopes reduced where it would overshoot them.
+
+    Source: fritsch_carlson_1980, sec. 3; slopes of one sign, at most three times the chord.
+    """
+    chord = (end[1] - start[1]) / (end[0] - start[0])
+    limit = 3 * abs(chord)
+    slopes = [np.sign(chord) * min(abs(slope), limit) if slope * chord > 0 else 0.0 for slope in (start[2], end[2])]
+    ends = np.array([start[0], end[0]])
+    return Segment(start[0], end[0], "rounded", ends, np.array([start[1], end[1]]), np.array(slopes))
+
+
+def constant_pressure(start: float, end: float, pressure: TracedValue) -> Segment:
+    """Return a segment of constant pressure.
+
+    `start` and `end`: crank angles [deg].
+    """
+    return Segment(
+        start, end, "constant", np.array([start, end]), np.full(2, pressure.value), np.zeros(2), operands=(pressure,)
+    )
+
+
+def clip_segment(segment: Segment, start: float, end: float) -> Segment:
+    """Return the same curve between two crank angles.
+
+    `start` and `end`: crank angles within it [deg].
+    """
+    edges = np.array([start, end])
+    if segment.law != "rounded":
+        return replace(segment, start=start, end=end, knots=edges)
+    curve = (segment.knots, segment.pressures, segment.slopes)
+    inside = (segment.knots > start) & (segment.knots < end)
+    pressures, slopes = hermite(*curve, edges), hermite_slope(*curve, edges)
+    return replace(
+        segment,
+        start=start,
+        end=end,
+        knots=_around(edges, segment.knots[inside]),
+        pressures=_around(pressures, segment.pressures[inside]),
+        slopes=_around(slopes, segment.slopes[inside]),
+    )
+
+
+def _around(ends: Array, inside: Array) -> Array:
+    return np.concatenate([ends[:1], inside, ends[1:]])
+
+
+def from_before_zero(dead_centres: tuple[Value, Value]) -> tuple[Value, Value]:
+    """Return the dead centres, a top dead centre that lies before 0 as a negative angle. [deg]
+
+    Top within half a revolution of 0, bottom after it.
+    """
+    top, bottom = dead_centres
+    top = top - 360.0 if to_number(top) > 180.0 else top
+    return top, bottom - 360.0 if to_number(bottom) > to_number(top) + 360.0 else bottom
+
+
+def within_cycle(segments: Sequence[Segment], cycle: float) -> tuple[Segment, ...]:
+    """Return segments of one cycle that begins anywhere as segments from 0 to its end.
+
+    The segment across the end of the cycle is cut in two. `segments`: in order, together one cycle long; of constant
+    pressure or rounded.
+    """
+    parts = []
+    for segment in segments:
+        turn = cycle * np.floor((segment.start + _SEGMENT_TOLERANCE) / cycle)
+        cut = turn + cycle
+        if segment.end > cut + _SEGMENT_TOLERANCE:
+            parts.append(_moved_segment(clip_segment(segment, segment.start, cut), -turn))
+            parts.append(_moved_segment(clip_segment(segment, cut, segment.end), -cut))
+        elif segment.end > segment.start:
+            parts.append(_moved_segment(segment, -turn))
+    parts.sort(key=lambda part: part.start)
+    first, last = parts[0], parts[-1]
+    parts[0] = replace(first, start=0.0, knots=np.concatenate([[0.0], first.knots[1:]]))
+    parts[-1] = replace(last if len(parts) > 1 else parts[0], end=cycle)
+    parts[-1] = replace(parts[-1], knots=np.concatenate([parts[-1].knots[:-1], [cycle]]))
+    return tuple(parts)
+
+
+def _moved_segment(segment: Segment, shift: float) -> Segment:
+    start, end = float(segment.start + shift), float(segment.end + shift)
+    return replace(segment, start=start, end=end, knots=segment.knots + shift)
+
 
 # prefix of the names of points that only shape a curve
 AUXILIARY = "~"
 _OFFSET = 0.2
-_ANGLE_TOLERANCE = 1e-6
+# of a stated pressure, what a polytrope that ends there may miss it by
+_CLOSING = 1e-3
+# parts that end nearer than this to where the next begins leave no gap [deg]
+_GAP = 1e-5
 
 
 class NamedPoint(NamedTuple):
@@ -41,34 +139,37 @@ class DiagramPart:
     points: tuple[NamedPoint, ...]
     slopes: tuple[Value, Value] = (0.0, 0.0)
     exponent: Value | None = None
-    reference: str | None = None
+    reference: str = ""
 
 
-def without_auxiliary(diagram: IndicatorDiagram) -> IndicatorDiagram:
-    """Return a diagram without the names of points that only shape its curves."""
-    named = {name: position for name, position in diagram.named.items() if not name.startswith(AUXILIARY)}
-    return IndicatorDiagram(diagram.segments, named, diagram.jumps)
+def diagram_of_parts(
+    parts: Sequence[DiagramPart], cycle: float, volume_at: VolumeAt, states: Mapping[str, tuple[float, float]]
+) -> IndicatorDiagram:
+    """Return the diagram of parts in order of the crank angle, beginning anywhere; those without length are left out.
 
-
-def to_points_and_pieces(
-    parts: Sequence[DiagramPart], cycle: float, references: dict[str, DiagramPoint]
-) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
-    """Return points and pieces of parts that together make one cycle, from 0 to its end.
-
-    `parts`: in order of the crank angle, beginning anywhere; parts without length are left out.
+    `states`: pressure and volume of the states that polytropes pass through. A pressure stated at the end of a
+    polytrope that is not the computed one is a jump.
     """
-    points, pieces = dict(references), []
-    for part in inside_cycle(parts, cycle):
+    segments, named, jumps = list[Segment](), dict[str, tuple[float, float]](), list[tuple[str, float, float]]()
+    end = 0.0
+    for number, part in enumerate(inside_cycle(parts, cycle), start=1):
         knots = _shaped(part) if part.law == "rounded" else part.points
-        names = tuple(_placed(points, knot) for knot in knots)
-        pieces.append(Piece(part.law, names, part.exponent, part.reference))
-    first, last = pieces[0].points[0], pieces[-1].points[-1]
-    before = points[last].pressure
-    if before is not None and points[first].pressure != before:
-        # a vertical line of no length closes the diagram where the cycle begins
-        foot = _placed(points, NamedPoint(f"{AUXILIARY}{last}", 0.0, before))
-        pieces.insert(0, Piece("rounded", (foot, first)))
-    return points, tuple(pieces)
+        degrees, pressures = (np.array([knot[index] for knot in knots], dtype=float) for index in (1, 2))
+        if abs(degrees[0] - end) > _GAP:
+            name = "piece_gap" if degrees[0] > end else "piece_overlap"
+            raise DiagramError(f"gas.pieces[{number}]", ErrorMessage(name, start=float(degrees[0]), end=end))
+        end, state = float(degrees[-1]), (0.0, 0.0, 0.0)
+        named |= {name: (float(angle), pressure) for name, angle, pressure in knots if not name.startswith(AUXILIARY)}
+        if part.law == "polytropic":
+            state = (*states[part.reference], float(to_number(part.exponent)))
+            stated, pressures = pressures, np.asarray(polytropic_pressure(*state[:2], volume_at(degrees), state[2]))
+            missed, name = float(stated[-1] - pressures[-1]), knots[-1].name
+            if name in named and abs(missed) > _CLOSING * max(abs(stated[-1]), abs(pressures[-1])):
+                jumps.append((name, end, missed))
+        slopes = monotone_slopes(degrees, pressures) if part.law == "rounded" else np.zeros_like(degrees)
+        origin = knots[0].name if part.law == "constant" else part.reference
+        segments.append(Segment(float(degrees[0]), end, part.law, degrees, pressures, slopes, state, origin))
+    return IndicatorDiagram(tuple(segments), named, tuple(jumps))
 
 
 def inside_cycle(parts: Sequence[DiagramPart], cycle: float) -> list[DiagramPart]:
@@ -103,25 +204,8 @@ def traced_pressure_of_parts(
 def _on_polytrope(
     part: DiagramPart, references: Mapping[str, tuple[TracedValue, TracedValue]], volume: TracedValue
 ) -> TracedValue:
-    law: TracedValue = polytropic_pressure(*references[part.reference or ""], volume, part.exponent)
+    law: TracedValue = polytropic_pressure(*references[part.reference], volume, part.exponent)
     return law
-
-
-def _placed(points: dict[str, DiagramPoint], added: NamedPoint) -> str:
-    """Add a point and return its name, which is changed if another point has it already."""
-    name, number = added.name, 0
-    while name in points and not _is_same(points[name], added):
-        number += 1
-        name = f"{AUXILIARY}{added.name.removeprefix(AUXILIARY)}{number}"
-    points.setdefault(name, DiagramPoint(added.angle, added.pressure))
-    return name
-
-
-def _is_same(point: DiagramPoint, added: NamedPoint) -> bool:
-    if point.angle is None or point.pressure is None or point.volume is not None:
-        return False
-    is_near = abs(point.pressure - added.pressure) <= 1e-9 * abs(added.pressure)
-    return bool(is_near and abs(point.angle - added.angle) < _ANGLE_TOLERANCE)
 
 
 def _within(part: DiagramPart, cycle: float) -> list[DiagramPart]:
