@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from crankwork.description.measured_build import treatment_of
+from crankwork.description.measured_build import read_measured, treatment_of
 from crankwork.description.schema import Values, nearest_name
 from crankwork.description.value_types import Reader
 from crankwork.loads.indicator import DiagramPoint, Piece
@@ -17,19 +17,15 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Cylinder, Gas
 
 _OF_GAS = ("expansion_exponent", "temperature")
-# reads the table of a file with samples; mistakes are reported under the path of its owner
-ReadMeasured = Callable[[Values, Reader, str], MeasuredPressure | None]
 
 
-def build_gas(
-    values: Values | None, cylinder: Cylinder | None, reader: Reader, read_measured: ReadMeasured
-) -> Gas | None:
+def build_gas(values: Values | None, cylinder: Cylinder | None, reader: Reader) -> Gas | None:
     """Return the gas in a cylinder, or None after complaints."""
     if values is None:
         return None
     _check_gas(values, cylinder, reader)
     _check_rod(values, cylinder, reader)
-    diagram = build_diagram(values, "gas", reader, read_measured)
+    diagram = build_diagram(values, "gas", reader)
     if "cycle" not in values:
         return None
     is_absolute = pressures_of(values, diagram.measured) == "absolute"
@@ -138,7 +134,7 @@ def with_valves(diagram: Diagram, valves: Valves, *, has_clearance: bool) -> Dia
     return diagram._replace(points=points, pieces=pieces)
 
 
-def build_diagram(values: Values, path: str, reader: Reader, read_measured: ReadMeasured) -> Diagram:
+def build_diagram(values: Values, path: str, reader: Reader) -> Diagram:
     """Return points and laws, or measured samples; report contradictions; `path`: of the diagram in the description."""
     _check_points(values, path, reader)
     measured = read_measured(values["measured"], reader, path) if "measured" in values else None

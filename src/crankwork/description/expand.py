@@ -13,8 +13,7 @@ from crankwork.description.load_keys import LOADING
 from crankwork.description.machine_file import file_keys, idle_keys, read, settings_of, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.shorthand import given_motion_tables, linkage_tables, linkage_values
-from crankwork.description.toml_edit import key_text, toml, with_value
-from crankwork.description.toml_positions import TomlPositions
+from crankwork.description.toml_edit import TomlPositions, key_text, toml, with_value
 from crankwork.description.value_types import Reader
 from crankwork.locale import Language, translate
 from crankwork.machine import Machine
@@ -31,7 +30,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
         description[setting.key] = setting.value
     values, keys = description.values, file_keys(description.values)
     if "transfer" in keys.keys:
-        columns = resolve_file_columns(values, keys, Reader.of(values), Path(path).parent)
+        columns = resolve_file_columns(values, keys, Reader.of(values, Path(path).parent))
         description = Description(_text(given_motion_tables(columns)), description.name)
     elif "rod" in keys.keys:
         description = Description(_text(linkage_tables(values, engine_of(description))), description.name)

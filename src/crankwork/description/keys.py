@@ -5,15 +5,120 @@ Reader, error messages, schema and settings use them; the meaning of a key is a 
 
 from __future__ import annotations
 
+import datetime as dt
 import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 from crankwork.cylinders.layout import MOST_CYLINDERS
-from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.load_keys import LOADING, SHEET, with_defaults
-from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
-from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text, UnitOf
+from crankwork.description.schema import (
+    DefaultBy,
+    KeySpec,
+    ListOf,
+    MapOf,
+    NameOr,
+    OneOrMore,
+    TableSpec,
+    WordOr,
+    nearest_name,
+)
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader, Text, UnitOf, shown
+from crankwork.locale import ErrorMessage, Language
+from crankwork.machine import Document
 from crankwork.method import STANDARD_GRAVITY
+
+# sections of notes in the order that most schools have
+_ENGINE_SECTIONS = (
+    "summary", "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity",
+    "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled",
+    "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature",
+    "sources", "appendix",
+)  # fmt: skip
+_LINKAGE_SECTIONS = (
+    "summary", "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques",
+    "friction", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks",
+    "conclusion", "nomenclature", "sources", "appendix",
+)  # fmt: skip
+_TRANSFER_SECTIONS = (
+    "summary", "task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "nomenclature", "sources",
+)  # fmt: skip
+_TURNING_SECTIONS = (
+    "summary", "task", "moments", "energy", "motor", "flywheel", "law_of_motion", "comparison", "checks",
+    "conclusion", "nomenclature", "sources",
+)  # fmt: skip
+_WORDS = Text(300)
+_HEAD = (
+    "title_en", "title_ru", "title_vi",
+    "ministry", "institution", "faculty", "department", "work", "subject", "subtitle", "variant", "designation",
+)  # fmt: skip
+_PEOPLE = ("group", "supervisor", "checked_by", "standards_by", "approved_by", "city")
+
+
+class Date(NamedTuple):
+    """A day: a date of TOML, or the same as text."""
+
+    def read(self, value: object, key: str, reader: Reader) -> dt.date | None:
+        """Return the day."""
+        if isinstance(value, dt.date) and not isinstance(value, dt.datetime):
+            return value
+        try:
+            return dt.date.fromisoformat(value if isinstance(value, str) and len(value) == len("2026-05-31") else "")
+        except ValueError:
+            reader.add_error(key, ErrorMessage("no_day", value=shown(value)))
+            return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a day."""
+        return {"type": "string", "format": "date", "examples": ["2026-05-31"]}
+
+
+class Section(NamedTuple):
+    """The name of a section of a note."""
+
+    options: tuple[str, ...]
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the name."""
+        if isinstance(value, str) and value in self.options:
+            return value
+        nearest = nearest_name(value, self.options) if isinstance(value, str) else ""
+        known = nearest or ", ".join(self.options)
+        reader.add_error(
+            key, ErrorMessage("no_section_near" if nearest else "no_section", value=shown(value), known=known)
+        )
+        return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of an enumeration."""
+        return {"enum": list(self.options)}
+
+
+def document_key(sections: tuple[str, ...]) -> KeySpec:
+    """Return the key of the table for machines whose notes have these sections."""
+    return KeySpec(
+        TableSpec("document", {
+            **dict.fromkeys(_HEAD, KeySpec(_WORDS)),
+            **dict.fromkeys(("author", "student_number"), KeySpec(OneOrMore(_WORDS, most=12))),
+            **dict.fromkeys(_PEOPLE, KeySpec(_WORDS)),
+            "year": KeySpec(Number(1900, 2200, whole=True), instead_of=("date",)),
+            "date": KeySpec(Date(), instead_of=("year",)),
+            "sections": KeySpec(OneOrMore(Section(sections), most=40)),
+        })
+    )  # fmt: skip
+
+
+ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key(_LINKAGE_SECTIONS)
+TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
+
+
+def stated_document(values: Mapping[str, Any]) -> Document:
+    """Return the values of the table, text without surrounding blanks."""
+    stated: Mapping[str, Any] = values.get("document") or {}
+    texts: dict[str, Any] = {key: value.strip() if isinstance(value, str) else value for key, value in stated.items()}
+    return Document(**texts | {"year": int(texts.get("year", 0))})
+
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
 _MASS = Quantity(("mass", "mass_per_area"), 0.0, 1e6)
@@ -180,7 +285,7 @@ TITLE = {
 
 MACHINE_FILE = TableSpec("file", {
     **TITLE,
-    "document": document_keys.ENGINE,
+    "document": ENGINE_DOCUMENT,
     "crank": KeySpec(_CRANK, required=True),
     "rod": KeySpec(_ROD, required=True),
     "piston": KeySpec(_PISTON),
@@ -207,7 +312,7 @@ CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for
 
 def with_loading(keys: TableSpec) -> TableSpec:
     """Return the keys of a file of an engine with loads or friction, whose note is that of a linkage."""
-    return keys._replace(keys={**keys.keys, "document": document_keys.LINKAGE})
+    return keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT})
 
 
 LOADED_FILE, LOADED_SIZED_FILE = map(with_loading, (MACHINE_FILE, SIZED_FILE))

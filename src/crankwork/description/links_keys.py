@@ -6,17 +6,18 @@ import math
 from typing import get_args
 
 from crankwork.cylinders.layout import MOST_CYLINDERS
-from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CHAMBER_CYCLE, FLYWHEEL
 from crankwork.description.keys import (
     AMBIENT,
     DIAGRAM,
+    LINKAGE_DOCUMENT,
     METHOD,
     NO_ACCELERATION,
     PIPED_VALVES,
     PRESSURES,
     TABLE,
     TITLE,
+    TRANSFER_DOCUMENT,
 )
 from crankwork.description.load_keys import (
     COORDINATE,
@@ -198,7 +199,7 @@ _BEARINGS = BEARINGS._replace(keys={**BEARINGS.keys, "pins": KeySpec(MapOf(_PIN_
 
 LINKAGE_FILE = TableSpec("file", {
     **TITLE,
-    "document": document_keys.LINKAGE,
+    "document": LINKAGE_DOCUMENT,
     "fixed_points": KeySpec(MapOf(_PLACE)),
     "crank": KeySpec(_CRANK, required=True),
     "geared": KeySpec(MapOf(_GEARED, most=50)),
@@ -259,7 +260,7 @@ _TRANSFER = TableSpec("transfer", {
 
 TRANSFER_FILE = TableSpec("file", {
     **TITLE,
-    "document": document_keys.TRANSFER,
+    "document": TRANSFER_DOCUMENT,
     "crank": KeySpec(TableSpec("driving", {"speed": KeySpec(SPEED, required=True)}), required=True),
     "transfer": KeySpec(_TRANSFER, required=True),
     "efficiency": KeySpec(EFFICIENCY),

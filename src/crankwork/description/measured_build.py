@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from functools import partial
-from pathlib import Path, PureWindowsPath
+from pathlib import PureWindowsPath
 from typing import NamedTuple
 
 import numpy as np
@@ -73,15 +73,15 @@ class _Columns(NamedTuple):
     is_before: bool  # Whether angles count against time
 
 
-def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
+def read_measured(values: Values, reader: Reader, path: str) -> MeasuredPressure | None:
     """Return the samples of a file, or None after a complaint; `path`: of their owner in the description."""
     if "step" in values:
-        return _listed(values, reader, f"{path}.measured", folder)
+        return _listed(values, reader, f"{path}.measured")
     if "file" not in values:
         return None
     file = values["file"]
     try:
-        table = read_table(folder / file, name=file, sheet=values["sheet"])
+        table = read_table(reader.folder / file, name=file, sheet=values["sheet"])
         columns = _columns(table, values)
         if not (columns.pressure_unit or reader.has_errors(f"{path}.measured.pressure_unit")):
             reader.add_error(f"{path}.measured.pressure_unit", _without_unit(table, columns.pressures[0]))
@@ -126,11 +126,11 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     )
 
 
-def _listed(values: Values, reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
+def _listed(values: Values, reader: Reader, path: str) -> MeasuredPressure | None:
     """Return pressures one after another at equal steps, or None after a complaint; `path`: of their table."""
     try:
         numbers = list(enumerate(values["values"], start=1)) or read_list(
-            folder / values["file"], name=values["file"], sheet=values["sheet"]
+            reader.folder / values["file"], name=values["file"], sheet=values["sheet"]
         )
     except CrankworkError as error:
         reader.add_error(f"{path}.file", *error.args)

@@ -9,8 +9,7 @@ from typing import NamedTuple
 
 from crankwork.analysis.given_torques import analyse_turning
 from crankwork.description.build import build_method, crank_speed
-from crankwork.description.drive_build import read_drive
-from crankwork.description.flywheel_build import read_flywheel
+from crankwork.description.drive_build import read_drive, read_flywheel
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.description.torque_keys import FORMS

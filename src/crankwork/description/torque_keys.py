@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import get_args
 
-from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import FLYWHEEL
-from crankwork.description.keys import METHOD, TABLE, TITLE
+from crankwork.description.keys import METHOD, TABLE, TITLE, TURNING_DOCUMENT
 from crankwork.description.load_keys import EFFICIENCY, MOTOR_SELECTION, SHEET
 from crankwork.description.schema import KeySpec, ListOf, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Number, Quantity, Text
@@ -78,7 +77,7 @@ _DIAGRAM = TableSpec("torque_diagram", {
 
 TURNING_FILE = TableSpec("file", {
     **TITLE,
-    "document": document_keys.TURNING,
+    "document": TURNING_DOCUMENT,
     "crank": KeySpec(TableSpec("turning_crank", {
         "speed": KeySpec(_SPEED, instead_of=("largest_speed",)),
         "largest_speed": KeySpec(_SPEED, instead_of=("speed",)),
