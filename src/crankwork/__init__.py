@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from crankwork.study.optimise import Optimum, optimise
     from crankwork.study.solve import Solution, solve
     from crankwork.study.spread import Spreads, spread
-    from crankwork.study.sweep import Swept, sweep
+    from crankwork.study.variants import Swept, sweep
 
 __version__ = "0.1.0"
 
@@ -87,7 +87,7 @@ _HOMES = {
     "Segment": "mechanism.driver",
     "Solution": "study.solve",
     "Spreads": "study.spread",
-    "Swept": "study.sweep",
+    "Swept": "study.variants",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
     "compare": "analysis.compare",
@@ -107,7 +107,7 @@ _HOMES = {
     "spread": "study.spread",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
-    "sweep": "study.sweep",
+    "sweep": "study.variants",
     "template": "description.machine_file",
     "template_names": "description.machine_file",
     "toggle_press": "mechanism.catalog",

@@ -15,7 +15,7 @@ import pytest
 
 from crankwork import Description, analyse, read_machine, template
 from crankwork.analysis.results import Results
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from crankwork.errors import RenamedKeyWarning
 from crankwork.quantities.key import RENAMED
 from crankwork.study.numeric_field import numeric_field

@@ -22,7 +22,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.curves import hermite, hermite_slope
-from crankwork.loads.pressure import traced_pressure
+from crankwork.loads.traced_diagram import traced_pressure
 from crankwork.working_cycle.closed_gas import (
     EXPANSION,
     internal_energy_change,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from crankwork.description.cylinder_pressure_build import build_gas
 from crankwork.description.drive_build import read_flywheel
+from crankwork.description.measured_build import build_gas
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
@@ -40,7 +40,9 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
         values = calculated.values if calculated else values
     crank, rod = values["crank"], values["rod"]
     lengths = _lengths(crank, rod, values["cylinder"], reader)
-    cylinder = _cylinder(values["cylinder"])
+    sizes, cylinder = values["cylinder"], None
+    if "bore" in sizes:
+        cylinder = sizes.made(Cylinder, piston_rod_diameter=sizes.si("piston_rod_diameter") or 0.0)
     _check_clearance(cylinder, lengths, reader)
     check_inertia_ratio(method, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
@@ -189,12 +191,6 @@ def check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | No
     radius, _, offset = lengths
     if not turns_fully(SliderCrank(radius, radius / ratio, offset)):
         reader.add_error("method.inertia_rod_ratio", ErrorMessage("inertia_ratio_large", ratio=f"{ratio:g}"))
-
-
-def _cylinder(values: Values) -> Cylinder | None:
-    if "bore" not in values:
-        return None
-    return values.made(Cylinder, piston_rod_diameter=values.si("piston_rod_diameter") or 0.0)
 
 
 def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, float] | None, reader: Reader) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from crankwork.description.cylinder_pressure_build import (
+from crankwork.description.measured_build import (
     build_diagram,
     build_valves,
     check_parts,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import cast
 
-from crankwork.description import cylinder_pressure_build
-from crankwork.description.cylinder_pressure_build import build_diagram, check_parts, has_diagram
+from crankwork.description.measured_build import build_diagram, build_valves, check_parts, has_diagram, with_valves
 from crankwork.description.schema import Values, no_effect_message
 from crankwork.description.value_types import Reader, shown
 from crankwork.formula.traced_value import given
@@ -136,12 +135,12 @@ def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Re
     check_parts(values, path, reader)
     pressures = "absolute" if gas.is_absolute else table["pressures"]
     diagram = build_diagram(values.but(pressures=pressures), path, reader)
-    valves = cylinder_pressure_build.build_valves(values, path, reader)
+    valves = build_valves(values, path, reader)
     if valves is not None and not (gas.is_absolute and gas.cycle == _TURN):
         key, wanted = ("cycle", "360 deg") if gas.is_absolute else ("pressures", "absolute")
         reader.add_error(f"{path}.valves", no_effect_message(key, table[key], (wanted,)))
     elif valves is not None:
-        diagram = cylinder_pressure_build.with_valves(diagram, valves, has_clearance=True)
+        diagram = with_valves(diagram, valves, has_clearance=True)
     return replace(gas, **diagram._asdict(), valves=valves, path=path)
 
 

@@ -33,8 +33,17 @@ from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.dynamics.tabulated_inertia import TabulatedBody
 from crankwork.loads.curves import LoadCurve as LoadTable
 from crankwork.loads.indicator import DiagramError
-from crankwork.loads.load import Damper, Load, SliderDamper, SliderSpring, Spring, Weight
-from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
+from crankwork.loads.load import (
+    Damper,
+    ForceOnPoint,
+    Load,
+    ProcessForce,
+    SliderDamper,
+    SliderSpring,
+    Spring,
+    TorqueOnLink,
+    Weight,
+)
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.driver import Law, LinkMotor, Segment

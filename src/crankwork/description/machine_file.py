@@ -18,24 +18,31 @@ from crankwork import files
 from crankwork.analysis import prepare
 from crankwork.description import keys as engine_files
 from crankwork.description.build import SIZES, build_machine
-from crankwork.description.cylinder_keys import OWN_SIZES
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.keys import (
     FORMATS,
     LOADED_FILE,
     LOADED_SIZED_FILE,
+    LOADING,
     MACHINE_FILE,
     METHOD,
+    OWN_SIZES,
     SIZED_FILE,
     stated_document,
 )
-from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, STARTED_FILE, TRANSFER_FILE
-from crankwork.description.load_keys import LOADING
+from crankwork.description.links_keys import (
+    DRIVEN_FILE,
+    GIVEN_MOTION_FILE,
+    LINKAGE_FILE,
+    PRESS_FILE,
+    STARTED_FILE,
+    TRANSFER_FILE,
+    TURNING_FILE,
+)
 from crankwork.description.measured_build import add_questions, in_file
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
 from crankwork.description.stated import file_inputs, mistaken_names
 from crankwork.description.toml_edit import locate
-from crankwork.description.torque_keys import PRESS_FILE, TURNING_FILE
 from crankwork.description.value_types import Reader, is_one_line, look_alikes
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
@@ -117,12 +124,6 @@ def read_machine(
         machine, notices=notices, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations,
         tolerances=reader.tolerances,
     )  # fmt: skip
-
-
-def are_readable(values: dict[str, Any]) -> bool:
-    """Return whether all values of a file have the types of their keys."""
-    reader = Reader.of(values)
-    return file_keys(values).read(values, "", reader) is not None and not reader.problems
 
 
 def _build(values: dict[str, Any], reader: Reader) -> Machine | None:

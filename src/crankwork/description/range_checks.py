@@ -32,8 +32,7 @@ from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.position_analysis import place
 from crankwork.kinematics.traced_motion import traced_motion
 from crankwork.loads.curves import LoadCurve
-from crankwork.loads.load import Load, applied_loads
-from crankwork.loads.process import ProcessForce
+from crankwork.loads.load import Load, ProcessForce, applied_loads
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain

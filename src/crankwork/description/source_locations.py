@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from crankwork import files
-from crankwork.description.cylinder_keys import OF_LINKAGE
+from crankwork.description.keys import OF_LINKAGE
 from crankwork.description.machine_file import Setting, apply_override, file_keys, parse, settings_of
 from crankwork.description.schema import TableSpec
 from crankwork.description.stated import stated_numbers

@@ -46,6 +46,10 @@ class NumericField(NamedTuple):
         number = float(units.from_si(value, self.unit))
         return f"{number!r} {self.unit}" if self.unit else number
 
+    def setting(self, value: float, option: str = "") -> Setting:
+        """Return the setting of a value in SI; `option`: what messages name, by default the key."""
+        return Setting(option or self.key, self.key, self.written(float(value)))
+
 
 class SearchPoints(NamedTuple):
     """Values of a number that are sampled."""
@@ -218,5 +222,4 @@ class VariedField:
 
     def setting(self, value: float) -> Setting:
         """Return the setting of a design."""
-        stated = self.values[int(value)] if self.number is None else self.number.written(float(value))
-        return Setting(self.key, self.key, stated)
+        return self.number.setting(value) if self.number else Setting(self.key, self.key, self.values[int(value)])
