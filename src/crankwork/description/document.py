@@ -99,7 +99,7 @@ class Description:
 
     def __setitem__(self, key: str, value: Any) -> None:  # noqa: ANN401 - what a file may state
         """Set a value: text with a unit, number or table; keys that exclude it are removed."""
-        self.replace({key: value})
+        self.replace(changes={key: value})
 
     def __delitem__(self, key: str) -> None:
         """Take a key, or a table, out of the file."""

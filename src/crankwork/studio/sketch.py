@@ -481,7 +481,7 @@ def _machine(word: str, language: Language) -> str:
         tables[link].setdefault("points", {})[force.name] = _place(frames[link], force.start, unit)
     turning = ", ".join(force.name for force in forces if force.is_local)
     head = f"# {translate('studio.pmks_turning', language, names=turning)}\n" if turning else ""
-    text = with_branch_positions({"title": translate("studio.sketch", language)} | values)
+    text = with_branch_positions({"title": translate("studio.pmks", language)} | values)
     for force in forces:
         text = with_table_entry(text, "loads", _load(force, force_unit))
     return head + text
