@@ -25,8 +25,8 @@ from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.cli.__init__ import studio
 from crankwork.cli.options import parse_count
-from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
+from crankwork.description.shorthand import expanded
 from crankwork.errors import DoubtfulError
 from crankwork.formula.traced_value import given
 from crankwork.kernel.grid import with_delayed_breakpoints
@@ -47,7 +47,7 @@ from crankwork.show.formats import gif
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, ChartBox, Text
 from crankwork.show.theme import fill_colours
 from crankwork.studio import session, sketch
-from crankwork.studio.additions import additions, with_addition
+from crankwork.studio.form import additions, with_addition
 from crankwork.study.chunks import empty_aggregate
 from crankwork.study.ranking import Shares
 from crankwork.study.runner import ExecutionOptions, _Pool, _written

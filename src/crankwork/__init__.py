@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     from crankwork.study.solve import Solution, solve
     from crankwork.study.solve_several import SeveralSolutions, solve_several
     from crankwork.study.spread import Spreads, spread
-    from crankwork.study.sweep import Swept, sweep
+    from crankwork.study.variants import Swept, sweep
 
 __version__ = "0.1.0"
 
@@ -89,7 +89,7 @@ _HOMES = {
     "SeveralSolutions": "study.solve_several",
     "Solution": "study.solve",
     "Spreads": "study.spread",
-    "Swept": "study.sweep",
+    "Swept": "study.variants",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
     "compare": "analysis.compare",
@@ -110,7 +110,7 @@ _HOMES = {
     "spread": "study.spread",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
-    "sweep": "study.sweep",
+    "sweep": "study.variants",
     "template": "description.machine_file",
     "template_names": "description.machine_file",
     "toggle_press": "mechanism.catalog",

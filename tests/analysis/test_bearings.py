@@ -11,7 +11,7 @@ import pytest
 
 import crankwork
 from crankwork import InputError, analyse, read_machine
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from crankwork.kinematics.crank_grid import CrankGrid
 from expansions import of_linkage
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 import crankwork
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from crankwork.report.summary import description_text
 from expansions import of_linkage
 

@@ -15,7 +15,7 @@ from crankwork import CrankGrid, analyse, read_machine, template
 from crankwork.analysis.cylinder_form import engine_form, engine_form_or_reason
 from crankwork.analysis.form_paths import linkage_paths, relocate
 from crankwork.analysis.results import Results
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.kernel.compiled import Kernel

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from each import failing
 from shown import EXAMPLES
 

@@ -11,8 +11,7 @@ import pytest
 import crankwork
 from crankwork.analysis.prepared import prepare
 from crankwork.analysis.second_routes import _bodies, _running
-from crankwork.description.expand import expanded
-from crankwork.description.shorthand import crank_mechanisms
+from crankwork.description.shorthand import crank_mechanisms, expanded
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.kinematics.piston import only_rod

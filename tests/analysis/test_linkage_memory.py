@@ -19,7 +19,7 @@ from crankwork.formula.traced_value import in_order
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.curves import LoadCurve
-from crankwork.loads.process import TorqueOnLink
+from crankwork.loads.load import TorqueOnLink
 from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.web import web

@@ -26,8 +26,8 @@ import numpy as np
 
 from campaigns.bodies import Array, Bodies, Panels, Turning, Values, area, si
 from crankwork.analysis import Results, analyse
-from crankwork.description.expand import expanded
 from crankwork.description.machine_file import read_machine, template
+from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import breakpoints_of
 from expansions import ROOT, WAYS, Shares, differences, differences_as_drawn, machine_files, written

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 import crankwork
 from crankwork.description.document import Description, load
 from crankwork.description.machine_file import Setting, apply_override, read_machine, template, template_names
-from crankwork.description.toml_edit import toml
-from crankwork.description.toml_positions import TomlPositions
+from crankwork.description.toml_edit import TomlPositions, toml
 from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from each import for_each
 from machine_texts import POINTS_ENGINE

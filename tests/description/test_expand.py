@@ -15,7 +15,7 @@ import pytest
 from crankwork import CrankGrid, analyse, read, template
 from crankwork.analysis.cylinders import multi_cylinder_engine
 from crankwork.analysis.prepared import prepare
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError, InputError
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import Input, in_order

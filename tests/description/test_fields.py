@@ -10,7 +10,7 @@ import tomllib
 import jsonschema
 import pytest
 
-from crankwork.description.cylinder_keys import CYCLE
+from crankwork.description.keys import CYCLE
 from crankwork.description.machine_file import FILES, json_schema, read_machine, template
 from crankwork.description.schema import DefaultBy, TableSpec, Values
 from crankwork.description.value_types import MeasuredValue, Quantity, Reader

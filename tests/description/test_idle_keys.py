@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from crankwork import Description, InputError, analyse, template
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from each import for_each
 from expansions import ROOT
 

@@ -7,7 +7,7 @@ import tomllib
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crankwork.description.toml_positions import locate
+from crankwork.description.toml_edit import locate
 from each import for_each
 
 SOURCE = '''# comment = 1

@@ -6,7 +6,7 @@ import pytest
 
 import crankwork
 from crankwork import CrankworkError
-from crankwork.description.expand import expanded
+from crankwork.description.shorthand import expanded
 from each import for_each
 
 GEAR = """

@@ -16,8 +16,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
-from crankwork.loads.load import Weight, applied_loads
-from crankwork.loads.process import ForceOnPoint, TorqueOnLink
+from crankwork.loads.load import ForceOnPoint, TorqueOnLink, Weight, applied_loads
 from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.driver import Cylinder, DrivingSlider
 from crankwork.mechanism.dyads import RRP, RRR, Guide

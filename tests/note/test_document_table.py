@@ -10,9 +10,8 @@ import crankwork
 import notes
 from crankwork.description.document import Description
 from crankwork.description.keys import MACHINE_FILE
-from crankwork.description.links_keys import LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.links_keys import LINKAGE_FILE, TRANSFER_FILE, TURNING_FILE
 from crankwork.description.machine_file import read_machine, template
-from crankwork.description.torque_keys import TURNING_FILE
 from crankwork.errors import InputError
 from crankwork.note.contents import WRITERS, note_of, written_note
 from crankwork.note.document import Heading, TitlePage

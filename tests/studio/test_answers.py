@@ -14,7 +14,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import in_language
 from crankwork.page import sliders
 from crankwork.studio import session
-from crankwork.studio.additions import additions
+from crankwork.studio.form import additions
 from crankwork.studio.session import Session, StoppedError, opened_share, shared
 from crankwork.study.parameter_map import map_text, mapped
 from each import for_each

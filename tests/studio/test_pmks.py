@@ -9,8 +9,8 @@ import pytest
 
 import crankwork
 from crankwork.errors import CrankworkError
-from crankwork.studio.pmks import from_pmks
 from crankwork.studio.session import is_share, opened_share
+from crankwork.studio.sketch import from_pmks
 
 DIGITS = string.digits + string.ascii_uppercase + string.ascii_lowercase + "_-"
 FOUR_BAR = (

@@ -14,10 +14,9 @@ from crankwork.show.chart import ChartBox, Graph, round_ticks, sheet
 from crankwork.show.chart_layout import MM
 from crankwork.show.contour import Field, contours
 from crankwork.show.scene import Circle, Polyline, Text, pen_of
-from crankwork.study.map_figures import map_drawings
+from crankwork.study.figures import found_drawings, map_drawings
 from crankwork.study.parameter_map import mapped
 from crankwork.study.runner import ExecutionOptions, run_study
-from crankwork.study.study_figures import found_drawings
 from crankwork.study.study_file import load_study
 from crankwork.study.study_text import found_data
 from looks import faults

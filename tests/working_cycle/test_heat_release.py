@@ -24,7 +24,7 @@ from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.curves import hermite, hermite_slope
 from crankwork.loads.indicator import Segment, quadrature
-from crankwork.loads.pressure import traced_pressure
+from crankwork.loads.traced_diagram import traced_pressure
 from crankwork.working_cycle.calculated_cycle import Calculated
 from crankwork.working_cycle.closed_gas import (
     EXPANSION,

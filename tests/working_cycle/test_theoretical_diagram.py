@@ -11,7 +11,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.indicator import IndicatorDiagram
-from crankwork.loads.pressure import traced_pressure
+from crankwork.loads.traced_diagram import traced_pressure
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import CycleError

@@ -13,8 +13,7 @@ import numpy as np
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.curves import LoadCurve
-from crankwork.loads.load import Weight
-from crankwork.loads.process import ProcessForce
+from crankwork.loads.load import ProcessForce, Weight
 from crankwork.machine import FileInput, InputNumber
 from crankwork.working_cycle.fuels import FUELS
 from crankwork.working_cycle.schools import PEAK_LEVEL

@@ -14,7 +14,7 @@ from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.curves import LoadCurve
-from crankwork.loads.process import ProcessForce
+from crankwork.loads.load import ProcessForce
 from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
 
 _STEP = 0.5

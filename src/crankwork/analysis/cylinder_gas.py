@@ -14,8 +14,7 @@ from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, delayed, given, reached
 from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
-from crankwork.loads.pressure import at_angle, polytrope_origin, pressure_on_piston, traced_pressure
-from crankwork.loads.traced_diagram import DiagramInput
+from crankwork.loads.traced_diagram import DiagramInput, at_angle, polytrope_origin, pressure_on_piston, traced_pressure
 from crankwork.loads.valves import StatedValves
 
 _Value = TypeVar("_Value")

@@ -9,8 +9,17 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.loads.chamber import Chamber, face_names
-from crankwork.loads.load import Damper, Load, SliderDamper, SliderSpring, Spring, Weight
-from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
+from crankwork.loads.load import (
+    Damper,
+    ForceOnPoint,
+    Load,
+    ProcessForce,
+    SliderDamper,
+    SliderSpring,
+    Spring,
+    TorqueOnLink,
+    Weight,
+)
 from crankwork.machine import Machine
 from crankwork.mechanism.joints import names_of_pivots
 

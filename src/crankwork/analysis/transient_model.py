@@ -26,8 +26,15 @@ from crankwork.kinematics.kinematic_coefficients import Transfer
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
 from crankwork.loads.applied_loads import AppliedLoads
-from crankwork.loads.load import Damper, SliderDamper, applied_loads, has_potential, potential_energy
-from crankwork.loads.process import ProcessForce, TorqueOnLink
+from crankwork.loads.load import (
+    Damper,
+    ProcessForce,
+    SliderDamper,
+    TorqueOnLink,
+    applied_loads,
+    has_potential,
+    potential_energy,
+)
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine, Transient
 from crankwork.shaft.piecewise_fit import fit_piecewise

@@ -216,7 +216,7 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: 
     if expand and (circuits or options.as_json):
         raise CrankworkError(ErrorMessage("expand_alone"))
     if expand:
-        from crankwork.description.expand import expanded
+        from crankwork.description.shorthand import expanded
 
         click.echo(expanded(options.file, options.settings, options.language), nl=False)
         return
@@ -437,8 +437,8 @@ def sweep(
 ) -> None:
     """Calculate the designs of a study: the best, the Pareto set, histograms and what matters."""
     from crankwork import files
+    from crankwork.study.figures import found_drawings
     from crankwork.study.runner import ExecutionOptions, run_study
-    from crankwork.study.study_figures import found_drawings
     from crankwork.study.study_file import load_study
     from crankwork.study.study_text import found_data, found_files, found_text
 
@@ -506,7 +506,7 @@ def map_(
     """Compute a machine over ranges of one or two numbers of its file."""
     from crankwork import files
     from crankwork.description.document import load
-    from crankwork.study.map_figures import map_drawings
+    from crankwork.study.figures import map_drawings
     from crankwork.study.parameter_map import map_data, map_files, map_text, mapped
 
     formats = () if options.no_figures or output is None else parse_formats(options.formats)

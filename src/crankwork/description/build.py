@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from crankwork.description.cylinder_pressure_build import ReadMeasured, build_gas
-from crankwork.description.flywheel_build import read_flywheel
+from crankwork.description.drive_build import read_flywheel
+from crankwork.description.measured_build import build_gas
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
@@ -29,7 +29,7 @@ SIZES = frozenset({"displacement", "stroke_bore_ratio"})
 _ENGINE_TABLES = {"engine", "bearings", "balance", "flywheel"}
 
 
-def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -> Machine | None:
+def build_machine(values: Values, reader: Reader) -> Machine | None:
     """Return the machine, or None after complaints."""
     method, stated = build_method(values["method"], reader), stated_numbers(values)
     calculated, values = None, _with_sizes(values, method.pi, reader)
@@ -40,11 +40,13 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
         values = calculated.values if calculated else values
     crank, rod = values["crank"], values["rod"]
     lengths = _lengths(crank, rod, values["cylinder"], reader)
-    cylinder = _cylinder(values["cylinder"])
+    sizes, cylinder = values["cylinder"], None
+    if "bore" in sizes:
+        cylinder = sizes.made(Cylinder, piston_rod_diameter=sizes.si("piston_rod_diameter") or 0.0)
     _check_clearance(cylinder, lengths, reader)
     check_inertia_ratio(method, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
-    gas = calculated.gas if calculated else build_gas(values.get("gas"), cylinder, reader, read_measured)
+    gas = calculated.gas if calculated else build_gas(values.get("gas"), cylinder, reader)
     table, flywheel = values["table"], values["flywheel"]
     special = table.degrees("special_angles")
     is_whole = not _ENGINE_TABLES.isdisjoint(values)
@@ -60,7 +62,7 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
         engine = build_engine(values, lengths, cycle, reader)
     own = not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]
     if own or values["gas"]["measured"]["columns"]:
-        engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
+        engine, gas = _with_own_gas(values, engine, gas, reader)
     speed = crank_speed(crank["speed"], method) if crank["speed"] else 0.0
     if "recovery" in flywheel and masses and (masses.piston or masses.rod_small_end) and method.name != "textbook":
         reader.add_error("flywheel.recovery", ErrorMessage("recovery_of_linkage"))
@@ -114,7 +116,7 @@ def _with_sizes(values: Values, pi: float, reader: Reader) -> Values:
 
 
 def _with_own_gas(
-    values: Values, engine: Engine | None, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
+    values: Values, engine: Engine | None, gas: Gas | None, reader: Reader
 ) -> tuple[Engine | None, Gas | None]:
     """Return an engine whose cylinders have different gas, and the gas of the first."""
     from crankwork.description.cylinder_gas import with_own_gas  # noqa: PLC0415 - few engines have such cylinders
@@ -128,7 +130,7 @@ def _with_own_gas(
             if is_stated:
                 reader.add_error(key, ErrorMessage("cylinders_engine"))
         return None, gas
-    engine = with_own_gas(values, engine, gas, reader, read_measured)
+    engine = with_own_gas(values, engine, gas, reader)
     return engine, engine.gases[0] if engine.gases else gas
 
 
@@ -189,12 +191,6 @@ def check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | No
     radius, _, offset = lengths
     if not turns_fully(SliderCrank(radius, radius / ratio, offset)):
         reader.add_error("method.inertia_rod_ratio", ErrorMessage("inertia_ratio_large", ratio=f"{ratio:g}"))
-
-
-def _cylinder(values: Values) -> Cylinder | None:
-    if "bore" not in values:
-        return None
-    return values.made(Cylinder, piston_rod_diameter=values.si("piston_rod_diameter") or 0.0)
 
 
 def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, float] | None, reader: Reader) -> None:

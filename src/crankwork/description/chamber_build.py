@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from crankwork.description.cylinder_pressure_build import (
-    ReadMeasured,
+from crankwork.description.measured_build import (
     build_diagram,
     build_valves,
     check_parts,
@@ -30,7 +29,6 @@ def build_chambers(
     linkage: Linkage | None,
     mechanism: Mechanism | None,
     reader: Reader,
-    read_measured: ReadMeasured,
     pi: float,
 ) -> tuple[dict[str, Chamber], dict[str, Charge]]:
     """Return chambers and charges by name; those with mistakes may be left out."""
@@ -52,7 +50,7 @@ def build_chambers(
         path = f"chambers.{name}"
         faces = tuple(_faces(path, table, sliders, reader))
         _check_pressure(path, table, sealed.get(holder.get(name, "")), reader)
-        diagram, valves = build_diagram(table, path, reader, read_measured), build_valves(table, path, reader)
+        diagram, valves = build_diagram(table, path, reader), build_valves(table, path, reader)
         if not faces or any(problem.key.startswith(path) for problem in reader.problems):
             continue
         if valves is not None:

@@ -13,8 +13,8 @@ from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.description.build import rod_masses
+from crankwork.description.joints_build import check_counterweights
 from crankwork.description.schema import Values
-from crankwork.description.shaft_build import check_counterweights
 from crankwork.description.value_types import Reader
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError, GeometryError

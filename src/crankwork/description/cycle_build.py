@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from crankwork.analysis.form_paths import relocate
-from crankwork.description.cylinder_keys import CYCLE
+from crankwork.description.keys import CYCLE
 from crankwork.description.schema import Values
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.errors import CrankworkError

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import cast
 
-from crankwork.description import cylinder_pressure_build
-from crankwork.description.cylinder_pressure_build import ReadMeasured, build_diagram, check_parts, has_diagram
+from crankwork.description.measured_build import build_diagram, build_valves, check_parts, has_diagram, with_valves
 from crankwork.description.schema import Values, no_effect_message
 from crankwork.description.value_types import Reader, shown
 from crankwork.formula.traced_value import given
@@ -21,9 +20,7 @@ _AMBIENT = "ambient"
 _TURN = 360.0
 
 
-def with_own_gas(
-    values: Values, engine: Engine, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
-) -> Engine:
+def with_own_gas(values: Values, engine: Engine, gas: Gas | None, reader: Reader) -> Engine:
     """Return an engine with the gas of each cylinder if they differ; report contradictions."""
     table, count = values["engine"], len(engine.layout.places)
     requested = [f"engine.{key}" for key in ("misfire", "pressure_factors") if key in table]
@@ -35,11 +32,11 @@ def with_own_gas(
         return engine
     if not requested and not own and not values["gas"]["measured"]["columns"]:
         return engine
-    diagrams = _own_diagrams(values["gas"], gas, count, reader, read_measured) if own else {}
-    diagrams = {**_of_columns(values["gas"], gas, engine, reader, read_measured), **diagrams}
+    diagrams = _own_diagrams(values["gas"], gas, count, reader) if own else {}
+    diagrams = {**_of_columns(values["gas"], gas, engine, reader), **diagrams}
     misfires = _misfires(table, own, count, reader)
     factors = _factors(table, misfires, count, reader)
-    motored = _motored(values, gas, reader, read_measured) if misfires else None
+    motored = _motored(values, gas, reader) if misfires else None
     if reader.problems:
         return engine
     left = [number for number in range(1, count + 1) if number not in diagrams and number not in misfires]
@@ -58,7 +55,7 @@ def with_own_gas(
     return replace(engine, gases=tuple(gases), misfires=tuple(sorted(misfires)))
 
 
-def _own_diagrams(table: Values, gas: Gas, count: int, reader: Reader, read_measured: ReadMeasured) -> dict[int, Gas]:
+def _own_diagrams(table: Values, gas: Gas, count: int, reader: Reader) -> dict[int, Gas]:
     """Return the gas of the cylinders that have a diagram of their own, by number."""
     gases = {}
     for name, values in table["cylinders"].items():
@@ -66,11 +63,11 @@ def _own_diagrams(table: Values, gas: Gas, count: int, reader: Reader, read_meas
         if name not in map(str, range(1, count + 1)):
             reader.add_error(path, ErrorMessage("cylinder_name", count=count))
         elif values is not None:
-            gases[int(name)] = _with_diagram(gas, values, path, table, reader, read_measured)
+            gases[int(name)] = _with_diagram(gas, values, path, table, reader)
     return gases
 
 
-def _of_columns(table: Values, gas: Gas, engine: Engine, reader: Reader, read_measured: ReadMeasured) -> dict[int, Gas]:
+def _of_columns(table: Values, gas: Gas, engine: Engine, reader: Reader) -> dict[int, Gas]:
     """Return the gas of each cylinder from the columns of one file over one crank angle, by number."""
     measured, places = table["measured"], engine.layout.places
     columns = measured["columns"]
@@ -83,9 +80,7 @@ def _of_columns(table: Values, gas: Gas, engine: Engine, reader: Reader, read_me
         own = Values({**measured, "pressure_column": column}, measured.table)
         del own["columns"]
         pressures = "absolute" if gas.is_absolute else "gauge"
-        diagram = build_diagram(
-            Values({"measured": own, "pressures": pressures}, table.table), "gas", reader, read_measured
-        )
+        diagram = build_diagram(Values({"measured": own, "pressures": pressures}, table.table), "gas", reader)
         # what is reported of the first is true of all
         samples = diagram.measured and replace(diagram.measured, notices=() if gases else diagram.measured.notices)
         gases[place.number] = replace(gas, measured=samples, angle_shift=gas.angle_shift - later)
@@ -135,17 +130,17 @@ def _written(column: str | float) -> str:
     return shown(int(column) if isinstance(column, float) else column)
 
 
-def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Reader, read: ReadMeasured) -> Gas:
+def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Reader) -> Gas:
     """Return the gas with another diagram; its pressures are absolute or gauge as those of the gas table."""
     check_parts(values, path, reader)
     pressures = "absolute" if gas.is_absolute else table["pressures"]
-    diagram = build_diagram(values.but(pressures=pressures), path, reader, read)
-    valves = cylinder_pressure_build.build_valves(values, path, reader)
+    diagram = build_diagram(values.but(pressures=pressures), path, reader)
+    valves = build_valves(values, path, reader)
     if valves is not None and not (gas.is_absolute and gas.cycle == _TURN):
         key, wanted = ("cycle", "360 deg") if gas.is_absolute else ("pressures", "absolute")
         reader.add_error(f"{path}.valves", no_effect_message(key, table[key], (wanted,)))
     elif valves is not None:
-        diagram = cylinder_pressure_build.with_valves(diagram, valves, has_clearance=True)
+        diagram = with_valves(diagram, valves, has_clearance=True)
     return replace(gas, **diagram._asdict(), valves=valves, path=path)
 
 
@@ -179,7 +174,7 @@ def _factors(table: Values, misfires: set[int], count: int, reader: Reader) -> l
     return [float(factor) for factor in factors]
 
 
-def _motored(values: Values, gas: Gas, reader: Reader, read_measured: ReadMeasured) -> Gas | None:
+def _motored(values: Values, gas: Gas, reader: Reader) -> Gas | None:
     """Return the gas of a cylinder without combustion."""
     if gas.calculated is not None:
         calculated = cast("CornerPressure | HeatReleasePressure", gas.calculated)
@@ -199,4 +194,4 @@ def _motored(values: Values, gas: Gas, reader: Reader, read_measured: ReadMeasur
         points = {"o": DiagramPoint(0.0, pressure), "o'": DiagramPoint(gas.cycle, pressure)}
         level = replace(gas, points=points, pieces=(Piece("constant", ("o", "o'")),), measured=None, valves=None)
         return replace(level, path="gas.motored")
-    return _with_diagram(gas, motored, "gas.motored", table, reader, read_measured)
+    return _with_diagram(gas, motored, "gas.motored", table, reader)

@@ -12,7 +12,6 @@ from crankwork.description.machine_file import (
     Setting,
     apply_override,
     apply_settings,
-    are_readable,
     entry_at,
     file_keys,
     parse,
@@ -21,6 +20,7 @@ from crankwork.description.machine_file import (
 )
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.toml_edit import document, with_value, without_key
+from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from crankwork.locale import ErrorMessage
 
@@ -99,7 +99,7 @@ class Description:
 
     def __setitem__(self, key: str, value: Any) -> None:  # noqa: ANN401 - what a file may state
         """Set a value: text with a unit, number or table; keys that exclude it are removed."""
-        self._change({key: value})
+        self.replace(changes={key: value})
 
     def __delitem__(self, key: str) -> None:
         """Take a key, or a table, out of the file."""
@@ -110,9 +110,6 @@ class Description:
 
     def replace(self, changes: Mapping[str, Any]) -> None:
         """Set several values at once: all, or none after an error."""
-        self._change(changes)
-
-    def _change(self, changes: Mapping[str, Any]) -> None:
         text, values = self._text, copy.deepcopy(self._values)
         for key, value in changes.items():
             gives_way = apply_override(values, Setting("key", key, value))
@@ -136,7 +133,8 @@ class Description:
     @property
     def is_readable(self) -> bool:
         """Whether all values have the types of their keys, even if the machine is incomplete."""
-        return are_readable(self.values)
+        reader = Reader.of(self._values)
+        return file_keys(self._values).read(self.values, "", reader) is not None and not reader.problems
 
     def dump(self) -> str:
         """Return the text, with the comments of whoever wrote it."""

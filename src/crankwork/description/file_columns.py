@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from crankwork.description.schema import ListOf, MapOf, NumberOr, TableSpec
@@ -26,7 +25,7 @@ class _Place(NamedTuple):
     path: str
 
 
-def resolve_file_columns(values: dict[str, Any], keys: TableSpec, reader: Reader, folder: Path) -> dict[str, Any]:
+def resolve_file_columns(values: dict[str, Any], keys: TableSpec, reader: Reader) -> dict[str, Any]:
     """Return values with names of columns replaced by their numbers; report missing columns."""
     if not any(path for path, _, _ in _tables("", values, keys)):
         return values
@@ -39,7 +38,7 @@ def resolve_file_columns(values: dict[str, Any], keys: TableSpec, reader: Reader
             reader.add_error(f"{path}.file", ErrorMessage("file_unused", example=example))
         sheet = table["sheet"] if isinstance(table.get("sheet"), str) else None
         try:
-            read = read_table(folder / file, name=file, sheet=sheet) if places else None
+            read = read_table(reader.folder / file, name=file, sheet=sheet) if places else None
         except CrankworkError as error:
             # consequences of an unreadable file are not reported
             reader.add_error(f"{path}.file", *error.args, meant=path)

@@ -5,27 +5,475 @@ Reader, error messages, schema and settings use them; the meaning of a key is a 
 
 from __future__ import annotations
 
+import datetime as dt
 import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 from crankwork.cylinders.layout import MOST_CYLINDERS
-from crankwork.description import document_keys
-from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
-from crankwork.description.load_keys import LOADING, SHEET, with_defaults
-from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
-from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text, UnitOf
+from crankwork.description.schema import (
+    DefaultBy,
+    KeySpec,
+    ListOf,
+    MapOf,
+    NameOr,
+    Nested,
+    NumberOr,
+    OneOrMore,
+    TableSpec,
+    WordOr,
+    nearest_name,
+)
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader, Text, UnitOf, shown
+from crankwork.locale import ErrorMessage, Language
+from crankwork.machine import Document
 from crankwork.method import STANDARD_GRAVITY
+from crankwork.working_cycle.schools import PEAK_LEVEL, SCHOOLS
 
-_LENGTH = Quantity(("length",), 1e-6, 100.0)
-_MASS = Quantity(("mass", "mass_per_area"), 0.0, 1e6)
+LENGTH = Quantity(("length",), 1e-6, 100.0)
+COORDINATE = Quantity(("length",), -1e3, 1e3)
+SPEED = Quantity(("speed",), 1e-6, 3e4)
+TORQUE = Quantity(("torque",), -1e9, 1e9)
+NAME = Text(60)
+TIME = Quantity(("time",), 1e-6, 1e6)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
+NO_ANGLE = KeySpec(_ANGLE, default="0 deg")
+INERTIA = KeySpec(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2")
+SHEET = KeySpec(Text(), only={"file": ()})
+_FORCE = Quantity(("force",), -1e9, 1e9)
+_MASS = Quantity(("mass", "mass_per_area"), 0.0, 1e6)
 _PRESSURE = Quantity(("pressure",), -1e8, 1e10)
 _VOLUME = Quantity(("volume",), 1e-15, 1e3)
+_EXPONENT = Number(0.5, 3.0)
+
+_PROCESS, _PUSH, _TURNS, _SPRING, _DAMPER = (
+    {"kind": (kind,)} for kind in ("process", "force", "torque", "spring", "damper")
+)
+_BY_COLUMN, _BETWEEN = {"kind": ("process", "torque")}, {"kind": ("spring", "damper")}
+_LOAD = TableSpec("load", {
+    "kind": KeySpec(Choice(("process", "force", "torque", "spring", "damper")), required=True),
+    "slider": KeySpec(NAME, required=("process",), only={"kind": ("process", "spring", "damper")}),
+    "point": KeySpec(NAME, required=True, only=_PUSH),
+    "link": KeySpec(NAME, required=("torque",), only={"kind": ("force", "torque")}),
+    "between": KeySpec(ListOf(NAME, fewest=2, most=2), only=_BETWEEN),
+    "links": KeySpec(ListOf(NAME, fewest=2, most=2), only={"between": ()}),
+    "x": KeySpec(_FORCE, default="0 N", only=_PUSH),
+    "y": KeySpec(_FORCE, default="0 N", only=_PUSH),
+    "against": KeySpec(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
+    "file": KeySpec(Text(1000), only=_BY_COLUMN),
+    "sheet": SHEET,
+    "at": KeySpec(ListOf(NumberOr(Quantity(("length", "angle"), -1e3, 1e3), Number(0.0, 1.0)), 2, from_file=True),
+              only=_BY_COLUMN),
+    "force": KeySpec(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
+    "torque": KeySpec(ListOf(TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
+    "curve": KeySpec(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
+    "stroke": KeySpec(Choice(("growing", "falling")), default="growing", only=_PROCESS),
+    "start": KeySpec(COORDINATE, only=_PROCESS),
+    "acts": KeySpec(Choice(("forward", "both")), default="forward", only=_PROCESS),
+    "stiffness": KeySpec(Quantity(("stiffness",), 0.0, 1e12), required=True, only=_SPRING),
+    "free_length": KeySpec(Quantity(("length",), 0.0, 1e3), default="0 mm", only=_SPRING),
+    "preload": KeySpec(_FORCE, default="0 N", only=_SPRING),
+    "damping": KeySpec(Quantity(("damping",), 0.0, 1e12), required=True, only=_DAMPER),
+})  # fmt: skip
+
+_COEFFICIENT = KeySpec(Number(0.0, 1.0, message_kind="coefficient"), default=0.0)
+_PIN_FRICTION = TableSpec("rubbing", {
+    "coefficient": _COEFFICIENT,
+    "radius": KeySpec(Quantity(("length",), 0.0, 10.0), required=True, only={"coefficient": ()}),
+    "moment": KeySpec(Quantity(("torque",), 0.0, 1e9), default="0 N*m"),
+    "damping": KeySpec(Quantity(("angular_damping",), 0.0, 1e9), default="0 N*m*s/rad"),
+})  # fmt: skip
+_SLIDER_FRICTION = TableSpec("rubbing_slider", {
+    "coefficient": _COEFFICIENT,
+    "length": KeySpec(LENGTH, only={"coefficient": ()}),
+    "force": KeySpec(Quantity(("force",), 0.0, 1e9), default="0 N"),
+    "damping": KeySpec(Quantity(("damping",), 0.0, 1e12), default="0 N*s/m"),
+})  # fmt: skip
+_FRICTION = TableSpec("friction", {
+    "circle": KeySpec(Choice(("tangent", "sine")), default="tangent"),
+    "pins": KeySpec(MapOf(_PIN_FRICTION, most=500)),
+    "sliders": KeySpec(MapOf(_SLIDER_FRICTION, most=300)),
+})  # fmt: skip
+
+EFFICIENCY = TableSpec("efficiency", {
+    "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True),
+    "decimals": KeySpec(Number(1, 6, whole=True)),
+    "losses": KeySpec(Choice(("drive", "machine"))),
+})  # fmt: skip
+
+_MAINS = KeySpec(Quantity(("frequency", "speed"), 1e-6, 3e4), default="50 Hz")
+MOTOR_SELECTION = KeySpec(TableSpec("motor_selection", {
+    "reserve": KeySpec(Number(1.0, 10.0), default=1.0),
+    "slip": KeySpec(Number(0.0, 0.5), default=0.04),
+    "frequency": _MAINS,
+}))  # fmt: skip
+_MOTOR = TableSpec("motor", {
+    "rated_power": KeySpec(Quantity(("power",), 1e-3, 1e9), required=True),
+    "rated_speed": KeySpec(SPEED, required=True),
+    "overload": KeySpec(Number(1.01, 10.0), required=True),
+    "pole_pairs": KeySpec(Number(1, 24, whole=True), required=True),
+    "frequency": _MAINS,
+    "ratio": KeySpec(Number(1e-4, 1e4), default=1.0),
+    "inertia": INERTIA,
+})  # fmt: skip
+
+_ANY_SPEED = Quantity(("speed",), -3e4, 3e4)
+_ANY_ANGLE = Quantity(("angle",), -1e4, 1e4)
+_TRANSIENT = TableSpec("transient", {
+    "time": KeySpec(TIME, required=True),
+    "torque": KeySpec(TORQUE),
+    "motor": KeySpec(Flag()),
+    "start": NO_ANGLE,
+    "speed": KeySpec(_ANY_SPEED, default="0 rpm"),
+    "until": KeySpec(Choice(("time", "rest", "steady")), default="time"),
+    "step": KeySpec(TIME),
+    "speeds": KeySpec(ListOf(_ANY_SPEED, most=20)),
+    "stops": KeySpec(ListOf(_ANY_ANGLE, fewest=2, most=2)),
+    "restitution": KeySpec(Number(0.0, 1.0), default=0.0, only={"stops": ()}),
+})  # fmt: skip
+# sections of notes in the order that most schools have
+_ENGINE_SECTIONS = (
+    "summary", "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity",
+    "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled",
+    "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature",
+    "sources", "appendix",
+)  # fmt: skip
+_LINKAGE_SECTIONS = (
+    "summary", "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques",
+    "friction", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks",
+    "conclusion", "nomenclature", "sources", "appendix",
+)  # fmt: skip
+_TRANSFER_SECTIONS = (
+    "summary", "task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "nomenclature", "sources",
+)  # fmt: skip
+_TURNING_SECTIONS = (
+    "summary", "task", "moments", "energy", "motor", "flywheel", "law_of_motion", "comparison", "checks",
+    "conclusion", "nomenclature", "sources",
+)  # fmt: skip
+_WORDS = Text(300)
+_HEAD = (
+    "title_en", "title_ru", "title_vi",
+    "ministry", "institution", "faculty", "department", "work", "subject", "subtitle", "variant", "designation",
+)  # fmt: skip
+_PEOPLE = ("group", "supervisor", "checked_by", "standards_by", "approved_by", "city")
+
+
+def with_defaults(keys: TableSpec, name: str, table: TableSpec, **defaults: object) -> TableSpec:
+    """Return the keys of a file in which keys of one of its tables have other defaults and need not be stated."""
+    own = {key: table.keys[key]._replace(required=False, default=default) for key, default in defaults.items()}
+    table = table._replace(keys={**table.keys, **own})
+    entry = KeySpec(table, required=any(key.required for key in table.keys.values()))
+    return keys._replace(keys={**keys.keys, name: entry})
+
+
+# those of a machine beside its mechanism and its gas
+LOADING = {
+    "loads": KeySpec(ListOf(_LOAD)),
+    "friction": KeySpec(_FRICTION),
+    "efficiency": KeySpec(EFFICIENCY),
+    "motor": KeySpec(_MOTOR, instead_of=("motor_selection",)),
+    "motor_selection": MOTOR_SELECTION._replace(instead_of=("motor",)),
+    "transient": KeySpec(_TRANSIENT),
+}
+
+
+class Date(NamedTuple):
+    """A day: a date of TOML, or the same as text."""
+
+    def read(self, value: object, key: str, reader: Reader) -> dt.date | None:
+        """Return the day."""
+        if isinstance(value, dt.date) and not isinstance(value, dt.datetime):
+            return value
+        try:
+            return dt.date.fromisoformat(value if isinstance(value, str) and len(value) == len("2026-05-31") else "")
+        except ValueError:
+            reader.add_error(key, ErrorMessage("no_day", value=shown(value)))
+            return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a day."""
+        return {"type": "string", "format": "date", "examples": ["2026-05-31"]}
+
+
+class Section(NamedTuple):
+    """The name of a section of a note."""
+
+    options: tuple[str, ...]
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the name."""
+        if isinstance(value, str) and value in self.options:
+            return value
+        nearest = nearest_name(value, self.options) if isinstance(value, str) else ""
+        known = nearest or ", ".join(self.options)
+        reader.add_error(
+            key, ErrorMessage("no_section_near" if nearest else "no_section", value=shown(value), known=known)
+        )
+        return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of an enumeration."""
+        return {"enum": list(self.options)}
+
+
+def document_key(sections: tuple[str, ...]) -> KeySpec:
+    """Return the key of the table for machines whose notes have these sections."""
+    return KeySpec(
+        TableSpec("document", {
+            **dict.fromkeys(_HEAD, KeySpec(_WORDS)),
+            **dict.fromkeys(("author", "student_number"), KeySpec(OneOrMore(_WORDS, most=12))),
+            **dict.fromkeys(_PEOPLE, KeySpec(_WORDS)),
+            "year": KeySpec(Number(1900, 2200, whole=True), instead_of=("date",)),
+            "date": KeySpec(Date(), instead_of=("year",)),
+            "sections": KeySpec(OneOrMore(Section(sections), most=40)),
+        })
+    )  # fmt: skip
+
+
+ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key(_LINKAGE_SECTIONS)
+TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
+
+
+def stated_document(values: Mapping[str, Any]) -> Document:
+    """Return the values of the table, text without surrounding blanks."""
+    stated: Mapping[str, Any] = values.get("document") or {}
+    texts: dict[str, Any] = {key: value.strip() if isinstance(value, str) else value for key, value in stated.items()}
+    return Document(**texts | {"year": int(texts.get("year", 0))})
+
+
 AMBIENT = DefaultBy("pressures", {"absolute": "101325 Pa"})
 NO_ACCELERATION = KeySpec(Quantity(("angular_acceleration",), -1e6, 1e6), default="0 rad/s2")
 
+_ENGINE_LENGTH = Quantity(("length",), 1e-4, 100.0)
+_SPACING = Quantity(("length",), 0.0, 100.0)
+_PLAIN_MASS = Quantity(("mass",), 0.0, 1e6)
+_INERTIA = Quantity(("inertia",), 0.0, 1e6)
+_EVENT = Quantity(("angle",), 0.0, 0.75 * math.pi)
+_BEFORE = Quantity(("angle",), math.radians(0.1), math.pi / 2)
+_CYCLE_PRESSURE = Quantity(("pressure",), 100.0, 1e9)
+_TEMPERATURE = Quantity(("temperature",), 100.0, 5000.0)
+_RISE = Quantity(("temperature",), -100.0, 1000.0)
+_SHARE = Number(0.0, 1.0)
+
+_OF_MASS = {"mass": ()}
+_ARTICULATED = TableSpec("articulated", {
+    "knuckle_radius": KeySpec(_ENGINE_LENGTH, required=True),
+    "rod_length": KeySpec(_ENGINE_LENGTH),
+    "knuckle_angles": KeySpec(ListOf(_ANGLE, fewest=1)),
+    "mass": KeySpec(_PLAIN_MASS),
+    "small_end_share": KeySpec(_SHARE, instead_of=("centre_of_mass",), only=_OF_MASS),
+    "centre_of_mass": KeySpec(_ENGINE_LENGTH, instead_of=("small_end_share",), only=_OF_MASS),
+    "inertia": KeySpec(_INERTIA, instead_of=("radius_of_gyration",), only=_OF_MASS),
+    "radius_of_gyration": KeySpec(_ENGINE_LENGTH, instead_of=("inertia",), only=_OF_MASS),
+})  # fmt: skip
+
+_V, _W, _BANKS = {"layout": ("V",)}, {"layout": ("W",)}, {"layout": ("V", "boxer", "W")}
+ENGINE = TableSpec("engine", {
+    "layout": KeySpec(Choice(("inline", "V", "boxer", "W", "radial")), required=True),
+    "cylinders": KeySpec(Number(1, MOST_CYLINDERS, whole=True), required=True),
+    "strokes": KeySpec(Choice((4, 2)), default=4),
+    "firing_order": KeySpec(ListOf(Number(1, MOST_CYLINDERS, whole=True), fewest=1, most=MOST_CYLINDERS)),
+    "bank_angle": KeySpec(_ANGLE, required=True, only=_V),
+    "bank_angles": KeySpec(ListOf(_ANGLE, fewest=2, most=8), required=True, only=_W),
+    "throws": KeySpec(ListOf(_ANGLE, fewest=1, most=MOST_CYLINDERS), only={"layout": ("inline", "V", "boxer", "W")}),
+    "pin_offset": KeySpec(_ANGLE, default="0 deg", only=_V),
+    "numbering": KeySpec(Choice(("banks", "pairs")), only=_BANKS),
+    "spacing": KeySpec(_ENGINE_LENGTH),
+    "bank_stagger": KeySpec(_SPACING, only=_BANKS),
+    "uneven": KeySpec(Flag(), default=False),
+    "own_throws": KeySpec(Flag(), default=False, only=_V),
+    "offsets": KeySpec(ListOf(Quantity(("length",), -100.0, 100.0), fewest=1, most=MOST_CYLINDERS)),
+    "bores": KeySpec(ListOf(_ENGINE_LENGTH, fewest=1, most=MOST_CYLINDERS)),
+    "clearance_volumes": KeySpec(ListOf(_VOLUME, fewest=1, most=MOST_CYLINDERS)),
+    "piston_masses": KeySpec(ListOf(_PLAIN_MASS, fewest=1, most=MOST_CYLINDERS)),
+    "articulated": KeySpec(_ARTICULATED, only={"layout": ("V", "radial")}),
+    "misfire": KeySpec(ListOf(Number(1, MOST_CYLINDERS, whole=True), fewest=1, most=MOST_CYLINDERS)),
+    "pressure_factors": KeySpec(ListOf(Number(0.0, 10.0), fewest=1, most=MOST_CYLINDERS)),
+})  # fmt: skip
+
+# lists of sizes that each cylinder has for itself, with the keys of those that all have
+OWN_SIZES = {
+    "bores": ("cylinder", "bore"),
+    "clearance_volumes": ("cylinder", "clearance_volume"),
+    "piston_masses": ("piston", "mass"),
+}
+
+BEARINGS = TableSpec("bearings", {
+    **dict.fromkeys(
+        ("crankpin_diameter", "crankpin_length", "main_diameter", "main_length", "pin_diameter", "pin_length"),
+        KeySpec(_ENGINE_LENGTH),
+    ),
+    "rays": KeySpec(Choice((12, 24)), default=12),
+    "counterweight": KeySpec(Quantity(("mass_moment",), 0.0, 1e6), default="0 kg*m"),
+})  # fmt: skip
+
+BALANCE = TableSpec("balance", {
+    "rotating_share": KeySpec(Number(0.0, 2.0), default=0.0),
+    "reciprocating_share": KeySpec(Number(0.0, 2.0), default=0.0),
+    "shafts": KeySpec(ListOf(Choice((1, 2)), fewest=1, most=2)),
+})  # fmt: skip
+
+_RIM = TableSpec("rim", {
+    "diameter": KeySpec(LENGTH, instead_of=("speed", "stress")),
+    "speed": KeySpec(Quantity(("velocity",), 1e-3, 1e4), instead_of=("diameter", "stress")),
+    "stress": KeySpec(Quantity(("pressure",), 1.0, 1e10), instead_of=("diameter", "speed"), only={"density": ()}),
+    "density": KeySpec(Quantity(("density",), 1.0, 1e5)),
+    "ratio": KeySpec(Number(1e-3, 1e3), only={"density": ()}),
+    "width": KeySpec(LENGTH, instead_of=("ratio",), only={"density": ()}),
+    "thickness": KeySpec(LENGTH, instead_of=("ratio",), only={"density": ()}),
+    "share": KeySpec(Number(0.0, 1.0, above=True), default=1.0),
+})  # fmt: skip
+
+FLYWHEEL = TableSpec("flywheel", {
+    "fluctuation": KeySpec(Number(1e-6, 1.0), instead_of=("percent", "speeds")),
+    "percent": KeySpec(Number(1e-4, 50.0, percent=1.0), instead_of=("fluctuation", "speeds")),
+    "speeds": KeySpec(ListOf(Quantity(("speed",), 1e-6, 3e4), fewest=2, most=2), instead_of=("fluctuation", "percent")),
+    "inertia": KeySpec(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2", instead_of=("mass",)),
+    "mass": KeySpec(Quantity(("mass",), 0.0, 1e9, above=True), instead_of=("inertia",)),
+    "radius_of_gyration": KeySpec(LENGTH, instead_of=("rim",)),
+    "rim": KeySpec(_RIM, instead_of=("radius_of_gyration",)),
+    "recovery": KeySpec(Quantity(("time",), 1e-6, 1e6)),
+})  # fmt: skip
+
+_FUEL = TableSpec("fuel", {
+    "carbon": KeySpec(_SHARE, required=True),
+    "hydrogen": KeySpec(_SHARE, required=True),
+    "oxygen": KeySpec(_SHARE, default=0.0),
+    "molar_mass": KeySpec(Number(1.0, 1000.0)),
+    "heating_value": KeySpec(Quantity(("specific_energy",), 1e6, 2e8), required=True),
+})  # fmt: skip
+
+
+def _event(usual: str) -> KeySpec:
+    """Return an event of the valves, which a calculation by Wiebe needs."""
+    return KeySpec(_EVENT, default=DefaultBy("kind", {"wiebe": usual}))
+
+
+_TIMING = TableSpec("timing", {
+    "intake_opens": _event("15 deg"),
+    "intake_closes": _event("50 deg"),
+    "exhaust_opens": _event("60 deg"),
+    "exhaust_closes": _event("15 deg"),
+    "ignition": KeySpec(_BEFORE),
+    "ignition_delay": KeySpec(_EVENT),
+    "peak": KeySpec(_BEFORE, default="12 deg"),
+})  # fmt: skip
+
+_REAL, _IDEAL = ("petrol", "diesel"), ("otto", "ideal-diesel", "dual")
+_PETROL, _DIESEL = _ASSIGNED = "assigned-petrol", "assigned-diesel"
+_OF_ASSIGNED, _OF_EXPONENTS = {"kind": _ASSIGNED}, {"kind": _REAL + _ASSIGNED}
+_OF_REAL, _OF_IDEAL, _OF_WIEBE = {"kind": _REAL}, {"kind": _IDEAL}, {"kind": ("wiebe",)}
+_RATIOS = DefaultBy("kind", dict.fromkeys(_IDEAL, 1.4) | {"wiebe": 1.33})
+_INTAKE = DefaultBy("kind", dict.fromkeys(_IDEAL, "0.1 MPa") | {"wiebe": "0.09 MPa"})
+_WARM = DefaultBy("kind", dict.fromkeys(_IDEAL, "300 K") | {"wiebe": "340 K"})
+_CORNERS, _CLOSED = {"kind": _REAL + _IDEAL + _ASSIGNED}, {"kind": (*_IDEAL, "wiebe")}
+_LEVELS = {kind: PEAK_LEVEL["petrol" if kind in ("petrol", "otto", _PETROL) else "diesel"] for kind in _CORNERS["kind"]}
+
+
+def _by_school(name: str) -> DefaultBy:
+    """Return the default of a convention by the school that has it."""
+    records = {key: record for key, record in SCHOOLS.items() if isinstance(record.get("source"), str)}
+    return DefaultBy("school", {school: record[name] for school, record in records.items() if name in record})
+
+
+CYCLE = TableSpec("cycle", {
+    "kind": KeySpec(Choice((*_REAL, *_IDEAL, *_ASSIGNED, "wiebe")), required=True),
+    "cycle": KeySpec(Choice(("720 deg", "360 deg")), default="720 deg"),
+    "fuel": KeySpec(NameOr(_FUEL), only=_OF_REAL),
+    "excess_air": KeySpec(Number(0.2, 20.0), only=_OF_REAL),
+    "ambient_pressure": KeySpec(Quantity(("pressure",), 0.0, 1e9), default="0.1 MPa"),
+    "ambient_temperature": KeySpec(_TEMPERATURE, default="293 K", only=_OF_REAL),
+    "charge_pressure": KeySpec(_CYCLE_PRESSURE, only=_OF_REAL),
+    "charge_temperature": KeySpec(_TEMPERATURE, only=_OF_REAL),
+    "intake_pressure": KeySpec(_CYCLE_PRESSURE, required=_ASSIGNED, default=_INTAKE),
+    "intake_temperature": KeySpec(_TEMPERATURE, default=_WARM, only=_CLOSED),
+    "intake_loss_factor": KeySpec(Number(0.0, 50.0), only=_OF_REAL),
+    "intake_speed": KeySpec(Quantity(("velocity",), 0.0, 1000.0), only=_OF_REAL),
+    "residual_pressure": KeySpec(
+        _CYCLE_PRESSURE, _ASSIGNED, default=DefaultBy("kind", {"wiebe": "0.11 MPa"}),
+        only={"kind": (*_REAL, *_ASSIGNED, "wiebe")},
+    ),
+    "residual_temperature": KeySpec(_TEMPERATURE, only=_OF_REAL),
+    "heating": KeySpec(_RISE, only=_OF_REAL),
+    "charge_up": KeySpec(Number(0.5, 1.5), default=1.0, only=_OF_REAL),
+    "scavenging": KeySpec(Number(0.0, 1.5), default=1.0, only=_OF_REAL),
+    "compression_exponent": KeySpec(_EXPONENT, _ASSIGNED, ("compression_pressure",), only=_OF_EXPONENTS),
+    "compression_pressure": KeySpec(_CYCLE_PRESSURE, instead_of=("compression_exponent",), only=_OF_ASSIGNED),
+    "peak_pressure": KeySpec(_CYCLE_PRESSURE, _ASSIGNED, ("pressure_ratio",), only=_OF_ASSIGNED),
+    "expansion_exponent": KeySpec(_EXPONENT, _ASSIGNED, ("expansion_pressure",), only=_OF_EXPONENTS),
+    "expansion_pressure": KeySpec(_CYCLE_PRESSURE, instead_of=("expansion_exponent",), only=_OF_ASSIGNED),
+    "total_volume": KeySpec(_VOLUME, only=_OF_ASSIGNED),
+    "heat_use": KeySpec(Number(0.2, 1.2), only=_OF_REAL),
+    "pressure_ratio": KeySpec(
+        Number(1.0, 10.0), instead_of=("peak_pressure",), only={"kind": ("diesel", *_IDEAL, *_ASSIGNED)}
+    ),
+    "cut_off": KeySpec(
+        Number(1.0, 10.0), (_DIESEL,), default=DefaultBy("kind", {_PETROL: 1.0}), only={"kind": _IDEAL + _ASSIGNED}
+    ),
+    "heat": KeySpec(Quantity(("specific_energy",), 0.0, 1e8), only=_OF_IDEAL),
+    "peak_temperature": KeySpec(_TEMPERATURE, only=_OF_IDEAL),
+    "adiabatic_exponent": KeySpec(Number(1.01, 2.0), default=_RATIOS, only=_CLOSED),
+    "filling": KeySpec(Number(0.5, 1.0), only=_CORNERS),
+    "mechanical_loss": KeySpec(ListOf(_SHARE, fewest=2, most=2), only=_OF_REAL),
+    "heat_capacities": KeySpec(Choice(("kolchin", "vietnamese", "linear")), default="kolchin", only=_OF_REAL),
+    "power": KeySpec(Quantity(("power",), 1.0, 1e9), only=_OF_REAL),
+    "stroke_bore_ratio": KeySpec(Number(0.2, 5.0), default=1.0, only=_OF_REAL),
+    "lost_stroke": KeySpec(Number(0.0, 0.6), only=_OF_REAL),
+    "corners": KeySpec(Choice(("rounded", "sharp")), only=_CORNERS),
+    "peak_level": KeySpec(Number(0.5, 1.0), default=DefaultBy("kind", _LEVELS), only=_CORNERS),
+    "school": KeySpec(Choice(("ru", "vi", "none")), default="ru", only=_CORNERS),
+    "rise": KeySpec(Number(1.0, 3.0), instead_of=("rise_share",), default=_by_school("rise"), only=_CORNERS),
+    "rise_share": KeySpec(_SHARE, instead_of=("rise",), default=_by_school("rise_share"), only=_CORNERS),
+    "blow_down": KeySpec(Choice(("exhaust", "intake")), default=_by_school("blow_down"), only=_CORNERS),
+    "timing": KeySpec(_TIMING),
+    "combustion_start": KeySpec(Quantity(("angle",), -math.pi / 2, math.pi / 2), default="20 deg", only=_OF_WIEBE),
+    "combustion_duration": KeySpec(Quantity(("angle",), math.radians(1), math.pi), default="50 deg", only=_OF_WIEBE),
+    "shape": KeySpec(Number(0.0, 10.0), default=2.0, only=_OF_WIEBE),
+    "cycle_heat": KeySpec(Quantity(("energy",), 1e-6, 1e9), only=_OF_WIEBE),
+    "fuel_mass": KeySpec(Quantity(("mass",), 1e-12, 1e3), only=_OF_WIEBE),
+    "heating_value": KeySpec(Quantity(("specific_energy",), 1e6, 2e8), only=_OF_WIEBE),
+    "burning_efficiency": KeySpec(Number(0.1, 1.0), default=1.0, only={**_OF_WIEBE, "fuel_mass": ()}),
+    "wall_temperature": KeySpec(_TEMPERATURE, only=_OF_WIEBE),
+    "motored": KeySpec(Choice(("compressed", "ambient")), default="compressed"),
+    "source": KeySpec(Text()),
+})  # fmt: skip
+
+# of a chamber, which states period and ambient pressure itself; there is no combustion in one that states `motored`
+CHAMBER_CYCLE = CYCLE._replace(keys={
+    **{name: key for name, key in CYCLE.keys.items() if name not in ("cycle", "ambient_pressure")},
+    "cycle_heat": KeySpec(Quantity(("energy",), 0.0, 1e9), only=_OF_WIEBE),
+    "motored": CYCLE.keys["motored"]._replace(default=None),
+})  # fmt: skip
+
+# the keys of an engine that determine those of the linkage that it is, the likeliest first
+OF_LINKAGE = (
+    (r"crank\.(mass|inertia|centre.*)", ("crank.mass",)),
+    (r"crank\.(start|points.*)", ("engine.throws", "engine.firing_order", "engine.layout", "cylinder.inclination")),
+    (r"links\.rod(_\d+)?\.points.*", ("engine.articulated.knuckle_radius",)),
+    (r"links\.rod(_\d+)?\.length", ("rod.length", "rod.ratio", "engine.articulated.rod_length")),
+    (r"links\.rod(_\d+)?\.inertia", ("rod.inertia", "rod.radius_of_gyration", "rod.mass", "rod.small_end_mass")),
+    (r"links\.rod(_\d+)?\.centre.*", ("rod.centre_of_mass", "rod.small_end_share", "rod.small_end_mass")),
+    (r"links\.rod(_\d+)?\.mass", ("rod.mass", "rod.small_end_mass", "rod.big_end_mass")),
+    (r"sliders\.piston(_\d+)?\.mass", ("piston.mass", "engine.piston_masses")),
+    (r"guides\.bore(_\d+)?\..*", ("cylinder.offset", "engine.offsets", "engine.bank_angle", "cylinder.inclination")),
+    (r"chambers\.[^.]+\.(faces\[1\]\.)?bore", ("cylinder.bore", "engine.bores")),
+    (r"chambers\.[^.]+\.(faces\[1\]\.)?rod_diameter", ("cylinder.piston_rod_diameter",)),
+    (
+        r"chambers\.[^.]+\.(compression_ratio|clearance_volume)",
+        ("cylinder.compression_ratio", "cylinder.clearance_volume", "engine.clearance_volumes"),
+    ),
+    (r"chambers\.[^.]+\.period", ("gas.cycle", "cycle.cycle")),
+    (r"chambers\.[^.]+\.delay", ("engine.firing_order", "engine.layout")),
+    (r"chambers\.[^.]+\.ambient", ("gas.ambient", "cycle.ambient_pressure")),
+    (r"chambers\.[^.]+\.pressure_factor", ("engine.pressure_factors",)),
+    (r"chambers\.crank_end(_\d+)?\.pressure", ("gas.back_pressure",)),
+    (r"chambers\.[^.]+\.cycle(\..*)?", (r"cycle\1", "cycle")),
+    (r"chambers\.[^.]+\.(.*)", (r"gas.\1", "gas", "cycle")),
+)
+
 _CRANK = TableSpec("crank", {
-    "radius": KeySpec(_LENGTH, required=True, instead_of=("stroke",)),
-    "stroke": KeySpec(_LENGTH, instead_of=("radius",)),
+    "radius": KeySpec(LENGTH, required=True, instead_of=("stroke",)),
+    "stroke": KeySpec(LENGTH, instead_of=("radius",)),
     "speed": KeySpec(Quantity(("speed",), 1e-6, 3e4), required=True),
     "angular_acceleration": NO_ACCELERATION,
     "mass": KeySpec(_MASS),
@@ -34,15 +482,15 @@ _CRANK = TableSpec("crank", {
 _ENDS = ("small_end_mass", "big_end_mass")
 _ROD = TableSpec("rod", {
     "ratio": KeySpec(Number(1e-6, 1e6), required=True, instead_of=("length",)),
-    "length": KeySpec(_LENGTH, instead_of=("ratio",)),
+    "length": KeySpec(LENGTH, instead_of=("ratio",)),
     "ratio_definition": KeySpec(Choice(("r/l", "l/r")), default="r/l"),
     "mass": KeySpec(_MASS),
     "small_end_share": KeySpec(Number(0.0, 1.0), instead_of=("centre_of_mass", *_ENDS)),
-    "centre_of_mass": KeySpec(_LENGTH, instead_of=("small_end_share", *_ENDS)),
+    "centre_of_mass": KeySpec(LENGTH, instead_of=("small_end_share", *_ENDS)),
     "small_end_mass": KeySpec(_MASS, instead_of=("mass", "small_end_share", "centre_of_mass")),
     "big_end_mass": KeySpec(_MASS, instead_of=("mass", "small_end_share", "centre_of_mass")),
     "inertia": KeySpec(Quantity(("inertia",), 0.0, 1e6), instead_of=("radius_of_gyration",)),
-    "radius_of_gyration": KeySpec(_LENGTH, instead_of=("inertia",)),
+    "radius_of_gyration": KeySpec(LENGTH, instead_of=("inertia",)),
 })  # fmt: skip
 
 _PISTON = TableSpec("piston", {"mass": KeySpec(_MASS)})
@@ -55,7 +503,7 @@ _CYLINDER = TableSpec("cylinder", {
     "compression_ratio": KeySpec(Number(1.001, 100.0), instead_of=("clearance_volume",)),
     "offset": KeySpec(Quantity(("length",), -100.0, 100.0), default="0 mm"),
     "inclination": KeySpec(_ANGLE),
-    "piston_rod_diameter": KeySpec(_LENGTH),
+    "piston_rod_diameter": KeySpec(LENGTH),
 })  # fmt: skip
 
 POINT = TableSpec("point", {
@@ -106,7 +554,6 @@ _COLUMNS = KeySpec(ListOf(_COLUMN, fewest=2, most=MOST_CYLINDERS), instead_of=("
 _OF_ALL = MEASURED._replace(keys={**MEASURED.keys, "columns": _COLUMNS})
 
 _OPENING = Quantity(("pressure",), 1.0, 1e10)
-_EXPONENT = Number(0.5, 3.0)
 _KELVIN = Quantity(("temperature",), 1.0, 1e4)
 VALVES = TableSpec("valves", {
     "suction": KeySpec(_OPENING, required=True),
@@ -124,7 +571,7 @@ VALVES = TableSpec("valves", {
 _LIQUID = {"density": ()}
 _PIPE = TableSpec("pipe", {
     "length": KeySpec(Quantity(("length",), 1e-3, 1e5), required=True),
-    "diameter": KeySpec(_LENGTH, required=True),
+    "diameter": KeySpec(LENGTH, required=True),
     "friction": KeySpec(Number(0.0, 1.0), default=0.0),
 })  # fmt: skip
 # those of a chamber may stand at the end of pipes
@@ -180,7 +627,7 @@ TITLE = {
 
 MACHINE_FILE = TableSpec("file", {
     **TITLE,
-    "document": document_keys.ENGINE,
+    "document": ENGINE_DOCUMENT,
     "crank": KeySpec(_CRANK, required=True),
     "rod": KeySpec(_ROD, required=True),
     "piston": KeySpec(_PISTON),
@@ -205,10 +652,8 @@ SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
 CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for keys in (MACHINE_FILE, SIZED_FILE))
 
 
-def with_loading(keys: TableSpec) -> TableSpec:
-    """Return the keys of a file of an engine with loads or friction, whose note is that of a linkage."""
-    return keys._replace(keys={**keys.keys, "document": document_keys.LINKAGE})
-
-
-LOADED_FILE, LOADED_SIZED_FILE = map(with_loading, (MACHINE_FILE, SIZED_FILE))
+# for engines with loads or friction, whose note is that of a linkage
+LOADED_FILE, LOADED_SIZED_FILE = (
+    keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT}) for keys in (MACHINE_FILE, SIZED_FILE)
+)
 STARTED_ENGINE = with_defaults(LOADED_FILE, "crank", _CRANK, speed="1 rad/s")

@@ -18,18 +18,31 @@ from crankwork import files
 from crankwork.analysis import prepare
 from crankwork.description import keys as engine_files
 from crankwork.description.build import SIZES, build_machine
-from crankwork.description.cylinder_keys import OWN_SIZES
-from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
-from crankwork.description.file_inputs import file_inputs
-from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, METHOD, SIZED_FILE
-from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, STARTED_FILE, TRANSFER_FILE
-from crankwork.description.load_keys import LOADING
-from crankwork.description.measured_build import add_questions, in_file, read_measured
+from crankwork.description.keys import (
+    FORMATS,
+    LOADED_FILE,
+    LOADED_SIZED_FILE,
+    LOADING,
+    MACHINE_FILE,
+    METHOD,
+    OWN_SIZES,
+    SIZED_FILE,
+    stated_document,
+)
+from crankwork.description.links_keys import (
+    DRIVEN_FILE,
+    GIVEN_MOTION_FILE,
+    LINKAGE_FILE,
+    PRESS_FILE,
+    STARTED_FILE,
+    TRANSFER_FILE,
+    TURNING_FILE,
+)
+from crankwork.description.measured_build import add_questions, in_file
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
-from crankwork.description.stated import mistaken_names
-from crankwork.description.toml_positions import locate
-from crankwork.description.torque_keys import PRESS_FILE, TURNING_FILE
+from crankwork.description.stated import file_inputs, mistaken_names
+from crankwork.description.toml_edit import locate
 from crankwork.description.value_types import Reader, is_one_line, look_alikes
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
@@ -38,7 +51,6 @@ from crankwork.resources import read_resource, resource_names
 from crankwork.units import TO_LATIN
 
 if TYPE_CHECKING:
-    from crankwork.loads.measured_pressure import MeasuredPressure
     from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
@@ -95,11 +107,10 @@ def read_machine(
     CrankworkError
         If the text is no TOML, or a setting is none.
     """
-    folder = folder or Path()
     source, values, mistakes = _mended(source, name)
     settings = apply_settings(values, overrides)
-    reader = Reader.of(values)
-    machine = _build(values, reader, folder)
+    reader = Reader.of(values, folder)
+    machine = _build(values, reader)
     if mistakes or reader.problems or machine is None:
         for path, letters, latin in mistaken_names(values):
             mistake = Problem(path, ErrorMessage("key_look_alike", letters=letters, written=latin))
@@ -113,21 +124,15 @@ def read_machine(
     )  # fmt: skip
 
 
-def are_readable(values: dict[str, Any]) -> bool:
-    """Return whether all values of a file have the types of their keys."""
-    reader = Reader.of(values)
-    return file_keys(values).read(values, "", reader) is not None and not reader.problems
-
-
-def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
+def _build(values: dict[str, Any], reader: Reader) -> Machine | None:
     """Return the machine of the values, or None after complaints."""
     if isinstance(stated := values.get("format"), int) and stated > FORMATS[-1]:
         # its keys may have other meanings
         reader.add_error("format", ErrorMessage("format_unknown", newest=str(FORMATS[-1])))
         return None
     keys, values = file_keys(values), with_first_sizes(values, reader)
-    read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
-    machine = _of_kind(keys, read_values, reader, folder)
+    read_values = keys.read(resolve_file_columns(values, keys, reader), "", reader) or Values({}, keys)
+    machine = _of_kind(keys, read_values, reader)
     weighs = any(code == "weight" for code, _ in reader.notices)
     for key, reason in idle_keys(keys, read_values).items():
         table, _, name = key.partition(".")
@@ -140,10 +145,9 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         if cylinders and count != cylinders:
             reader.add_error(f"engine.{name}", ErrorMessage("offsets_count", count=count, cylinders=int(cylinders)))
     if machine is not None and not reader.problems and (keys in _LOADED or own_sizes):
-        machine = _loaded(machine, values, reader, folder)
+        machine = _loaded(machine, values, reader)
     elif machine is not None and keys in _ENGINES:
-        form = functools.partial(_linkage_form, machine, values, decimal_comma=reader.decimal_comma, folder=folder)
-        machine = replace(machine, other_form=form)
+        machine = replace(machine, other_form=functools.partial(_linkage_form, machine, values, reader.options))
     if machine is None:
         return None
     return replace(machine, document=stated_document(read_values), inputs=functools.partial(_inputs, values))
@@ -191,17 +195,18 @@ _OF_FORM = (
 )  # fmt: skip
 
 
-def _linkage_form(
-    stated: Machine, values: dict[str, Any], machine: Machine, *, decimal_comma: bool, folder: Path
-) -> Machine | None:
-    """Return the linkage that an engine is; None if it is no longer the stated one, or by an approximate method."""
+def _linkage_form(stated: Machine, values: dict[str, Any], options: dict[str, Any], machine: Machine) -> Machine | None:
+    """Return the linkage that an engine is; None if it is no longer the stated one, or by an approximate method.
+
+    `options`: of the reader of its file.
+    """
     from crankwork.description.shorthand import linkage_values  # noqa: PLC0415 - loaded where it is needed
 
     if not _is_unchanged(machine, stated) or not machine.method.is_exact:
         return None
     method = {key: value for key, value in values.get("method", {}).items() if key != "kinematics"}
-    reader = Reader(decimal_comma=decimal_comma, metric_hp=values.get("format", 1) == 1, gravity=machine.method.gravity)
-    linkage = _build(linkage_values({**values, "method": method}, machine), reader, folder)
+    reader = Reader(**options | {"gravity": machine.method.gravity})
+    linkage = _build(linkage_values({**values, "method": method}, machine), reader)
     if linkage is None or reader.problems:
         return None
     return replace(linkage, units=machine.units, document=machine.document)
@@ -217,7 +222,7 @@ def _engine_form(stated: Machine, engine: Machine, machine: Machine) -> Machine 
     return engine if _is_unchanged(machine, stated) else None
 
 
-def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
+def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine | None:
     """Return an engine with loads or friction as the linkage that it is; report mistakes at the keys of its file."""
     # other files do not load it
     from crankwork.description.shorthand import has_own_sizes, key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
@@ -226,8 +231,8 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
         stated = next((key for key in LOADING if key in values), "engine")
         reader.add_error("method.kinematics", ErrorMessage("loaded_exact", method=machine.method.name, key=stated))
         return None
-    own = Reader(decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp, gravity=reader.gravity)
-    linkage = _build(linkage_values(values, machine), own, folder)
+    own = Reader(**reader.options)
+    linkage = _build(linkage_values(values, machine), own)
     for problem in own.problems:
         reader.add_error(key_of_engine(problem.key, values), problem.message)
     if linkage is None:
@@ -242,12 +247,8 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
     return replace(linkage, other_form=functools.partial(_engine_form, linkage, machine))
 
 
-def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path) -> Machine | None:
+def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | None:
     """Return the machine of values that were read, or None after complaints."""
-
-    def read_samples(table: Values, sample_reader: Reader, path: str) -> MeasuredPressure | None:
-        return read_measured(table, sample_reader, path, folder)
-
     if keys in (TURNING_FILE, PRESS_FILE):
         # most files do not load it
         from crankwork.description.torque_build import build_turning  # noqa: PLC0415 - loaded where it is needed
@@ -262,8 +263,8 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path)
 
         if keys in _TABULATED:
             return build_tabulated(read_values, reader)
-        return build_linkage(read_values, reader, read_samples)
-    return _solvable(build_machine(read_values, reader, read_samples), read_values, reader)
+        return build_linkage(read_values, reader)
+    return _solvable(build_machine(read_values, reader), read_values, reader)
 
 
 def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machine | None:

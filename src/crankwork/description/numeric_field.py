@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from crankwork import units
 from crankwork.description.document import stated_value
-from crankwork.description.machine_file import entry_at, file_keys, steps_of
+from crankwork.description.machine_file import Setting, entry_at, file_keys, steps_of
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, nearest_name
 from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, is_fraction
 from crankwork.errors import CrankworkError, UnknownKeyError
@@ -33,6 +33,10 @@ class NumericField(NamedTuple):
         """Return a value as the file states it."""
         number = float(units.from_si(value, self.unit))
         return f"{number!r} {self.unit}" if self.unit else number
+
+    def setting(self, value: float, option: str = "") -> Setting:
+        """Return the setting of a value in SI; `option`: what messages name, by default the key."""
+        return Setting(option or self.key, self.key, self.written(float(value)))
 
 
 def kind_of(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - each kind has its own type

@@ -1,10 +1,12 @@
-"""The range of motion of a described linkage: what blocks it, and what in its description depends on it."""
+"""What the motion of a described linkage decides: branches, redundant links, the range and what depends on it."""
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from crankwork.analysis.motion_range import ReachableMotion, find_reachable_moti
 from crankwork.description.schema import Values
 from crankwork.description.value_types import Reader
 from crankwork.dynamics.reduction import reduced_inertia
+from crankwork.dynamics.redundant import RedundantLink
 from crankwork.errors import GeometryError, Problem
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.kinematics.assembly import first_failure
@@ -24,20 +27,28 @@ from crankwork.kinematics.crank_range import (
     pass_change_points,
     turns_fully,
 )
+from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.position_analysis import place
 from crankwork.kinematics.traced_motion import traced_motion
 from crankwork.loads.curves import LoadCurve
-from crankwork.loads.load import Load, applied_loads
-from crankwork.loads.process import ProcessForce
+from crankwork.loads.load import Load, ProcessForce, applied_loads
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
+from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
+from crankwork.mechanism.structure import mobility
+from crankwork.mechanism.table_reader import linkage_from
 
 _STEP = 1.0
+_KEYS = ("share", "of")
+# largest number of redundant links without a share, and of combinations tried
+_MOST_UNSHARED, _MOST_TRIED = 3, 100
+# share of the size of a linkage by which a stated position may differ
+_ROUGHLY = 0.25
 
 
 def with_crank_range(mechanism: Mechanism) -> tuple[Mechanism, CrankRange | None]:
@@ -200,3 +211,200 @@ def _unassembled_key(machine: Machine, grid: CrankGrid) -> str:
             member = next(drawn for drawn in machine.drawn.members if drawn.name in names)
             return f"{'sliders' if member.guide else 'links'}.{member.name}"
     return "links"
+
+
+def geometry_of(link: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of a link without those of its share of the load."""
+    return {name: value for name, value in link.items() if name not in _KEYS}
+
+
+def without_redundant(linkage: Linkage, values: Values, reader: Reader) -> tuple[Linkage, tuple[Member, ...]]:
+    """Return a linkage without the links with a share, and these links; report invalid shares."""
+    links = values["links"]
+    for name, link in links.items():
+        for key, other in (_KEYS, _KEYS[::-1]):
+            if key in link and other not in link:
+                example = next((member_name for member_name in links if member_name != name), "rocker")
+                reader.add_error(f"links.{name}.{other}", ErrorMessage(f"{other}_missing", name=name, example=example))
+    shared = tuple(member for member in linkage.members if set(_KEYS) <= set(links.get(member.name, ())))
+    if reader.problems or not shared:
+        return linkage, ()
+    if not mechanism_of(linkage)[1]:
+        for member in shared:
+            reader.add_error(f"links.{member.name}.share", ErrorMessage("share_needless", name=member.name))
+        return linkage, ()
+    without = replace(linkage, members=tuple(member for member in linkage.members if member not in shared))
+    for member in shared:
+        _check((linkage, without), member, links[member.name]["of"], reader)
+    return without, shared
+
+
+def without_unshared(linkage: Linkage, taken: tuple[Member, ...]) -> tuple[Linkage, tuple[Member, ...]]:
+    """Return a linkage without redundant links that fit and have no mass, and all links removed.
+
+    `taken`: links with a share, removed already.
+    """
+    named = [problem.key.partition(".")[2] for problem in mechanism_of(linkage)[1] if _is_stiff(problem)]
+    count = 1 - round(float(mobility(linkage).value))
+    if not named or not 1 <= count <= _MOST_UNSHARED:
+        return linkage, taken
+    weightless = [member for member in linkage.members if not (member.mass or member.inertia or member.guide)]
+    weightless.sort(key=lambda member: member.name not in named)
+    for subset in itertools.islice(itertools.combinations(weightless, count), _MOST_TRIED):
+        without = replace(linkage, members=tuple(member for member in linkage.members if member not in subset))
+        if mechanism_of(without)[1]:
+            continue
+        fits = [check_redundant_fit(without, member, 0.0) for member in subset]
+        if all(message is not None and message.name == "redundant_fits" for message in fits):
+            return without, (*taken, *subset)
+    return linkage, taken
+
+
+def _is_stiff(problem: Problem) -> bool:
+    return isinstance(problem.message, ErrorMessage) and problem.message.name == "stiff_one"
+
+
+def _check(both: tuple[Linkage, Linkage], link: Member, other: str, reader: Reader) -> None:
+    """Report a link that cannot have a share, and a link that it cannot share with.
+
+    `both`: the linkage with all links, and without those with a share.
+    """
+    key, (full, without) = f"links.{link.name}", both
+    if sum(point in without.owners for point in link.points) != 2:
+        reader.add_error(f"{key}.share", ErrorMessage("share_joints", name=link.name))
+    if link.mass or link.inertia:
+        reader.add_error(f"{key}.mass", ErrorMessage("share_mass", name=link.name))
+    known = [member.name for member in without.members if not member.guide]
+    if other not in known:
+        reader.add_error(f"{key}.of", ErrorMessage("absent_link", name=other, known=", ".join(known)))
+    elif len(_joints(full, full.member(other))) != 2:
+        reader.add_error(f"{key}.of", ErrorMessage("share_joints", name=other))
+
+
+def _joints(linkage: Linkage, member: Member) -> list[str]:
+    return [point for point in member.points if len(linkage.owners[point]) > 1]
+
+
+def fitting(linkage: Linkage, members: tuple[Member, ...], values: Values, reader: Reader) -> tuple[RedundantLink, ...]:
+    """Return redundant links that fit the motion of the linkage; report those that do not."""
+    redundant = []
+    for link in members:
+        freedom = float(mobility(replace(linkage, members=(*linkage.members, link))).value)
+        message = check_redundant_fit(linkage, link, freedom)
+        if message is None or message.name != "redundant_fits":
+            reader.add_error(f"links.{link.name}", message or ErrorMessage("share_driver", name=link.name))
+            continue
+        start, end = (point for point in link.points if point in linkage.owners)
+        length = math.dist(link.points[start], link.points[end])
+        if "share" not in values["links"][link.name]:
+            redundant.append(RedundantLink(link, start, end, length))
+            continue
+        other = linkage.member(values["links"][link.name]["of"])
+        near, far = _counted(linkage, other, (start, end))
+        of_length = math.dist(other.points[near], other.points[far])
+        share = values["links"][link.name]["share"]
+        redundant.append(RedundantLink(link, start, end, length, share, other.name, near, far, of_length))
+    return tuple(redundant)
+
+
+def _counted(linkage: Linkage, other: Member, ends: tuple[str, str]) -> tuple[str, str]:
+    """Return the two joints of a link, first that on a link which the ends belong to: the force counts there."""
+    owners = {owner for end in ends for owner in linkage.owners[end]} - {GROUND}
+    joints = _joints(linkage, other)
+    near = next((joint for joint in joints if owners & {*linkage.owners[joint]} - {other.name}), joints[0])
+    return near, next(joint for joint in joints if joint != near)
+
+
+class BranchedMechanism(NamedTuple):
+    """A mechanism with its branches, its problems, and the positions of its joints at the start. [m]"""
+
+    mechanism: Mechanism | None
+    problems: list[Problem]
+    places: Mapping[str, tuple[float, float]]
+
+
+def branches_from_positions(linkage: Linkage) -> BranchedMechanism:
+    """Return the mechanism of a linkage with branches from stated positions, group after group.
+
+    A group may need solved positions of points on links of groups before it.
+    """
+    mechanism, problems = mechanism_of(linkage)
+    solved: dict[str, tuple[float, float]] = {}
+    for _ in mechanism.dyads if mechanism is not None and linkage.positions else ():
+        if mechanism is None:
+            break
+        points = _placed(mechanism)
+        places = {name: tuple(float(np.ravel(axis.position)[0]) for axis in point) for name, point in points.items()}
+        solved = {name: (x, y) for name, (x, y) in places.items() if math.isfinite(x) and math.isfinite(y)}
+        before = mechanism
+        mechanism, problems = mechanism_of(linkage, solved)
+        if mechanism == before:
+            break
+    return BranchedMechanism(None if problems else mechanism, problems, solved)
+
+
+def _placed(mechanism: Mechanism) -> Mapping[str, PointMotion]:
+    """Return the points at the start, of as many groups as can be assembled with the branches so far."""
+    for count in range(len(mechanism.dyads), 0, -1):
+        try:
+            return place(replace(mechanism, dyads=mechanism.dyads[:count]), CrankGrid.from_degrees([0.0])).points
+        except GeometryError:
+            continue
+    return {}
+
+
+def position_notices(
+    tables: Mapping[str, Any], linkage: Linkage, branched: BranchedMechanism, reader: Reader, *, is_new: bool
+) -> Iterator[tuple[str, dict[str, float | str]]]:
+    """Yield notices of positions far from their joints, unless they decide the branch of a dyad.
+
+    In files of format 2 (`is_new`) report these, and all positions without effect.
+    """
+    if branched.mechanism is None:
+        return
+    branches, starts = _settling(linkage, branched.mechanism)
+    size = max(
+        (math.dist(first, second) for first in branched.places.values() for second in branched.places.values()),
+        default=0.0,
+    )
+    for name, stated in linkage.positions.items():
+        if name in branches:
+            continue
+        if name in branched.places and math.dist(stated, branched.places[name]) > _ROUGHLY * size:
+            code = "position_far" if name in starts else "position_idle"
+            values: dict[str, float | str] = {"name": name}
+            values |= dict(zip("xy", (float(f"{1e3 * axis:.4g}") for axis in branched.places[name]), strict=True))
+            if is_new:
+                reader.add_error(f"positions.{name}", ErrorMessage(code, **values))
+            else:
+                yield code, values
+        elif is_new and name not in starts and _is_idle(tables, linkage, branched.mechanism, name):
+            yield "position_unused", {"name": name}
+
+
+def _is_idle(tables: Mapping[str, Any], linkage: Linkage, mechanism: Mechanism, name: str) -> bool:
+    """Return whether a linkage is the same without a stated position."""
+    rest = {joint: position for joint, position in tables["positions"].items() if joint != name}
+    other, _ = linkage_from({**tables, "positions": rest})
+    if other is None:
+        return False
+    names = {member.name for member in linkage.members}
+    other = replace(other, members=tuple(member for member in other.members if member.name in names))
+    return (
+        replace(other, positions={}) == replace(linkage, positions={})
+        and branches_from_positions(other).mechanism == mechanism
+    )
+
+
+def _settling(linkage: Linkage, mechanism: Mechanism) -> tuple[set[str], set[str]]:
+    """Return the points whose stated positions settle a branch, and those where a chain begins."""
+    branches, starts = set[str](), set[str]()
+    for group in mechanism.dyads:
+        match group:
+            case RRR(point=name) | RRP(slider=name):
+                branches |= {name} - set(linkage.branches)
+            case RPR(link=name):
+                branches |= set() if name in linkage.branches else set(linkage.member(name).points)
+            case Chain(links=links):
+                starts |= {name for link in links for name in link.points}
+    return branches, starts

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from crankwork import files
-from crankwork.description.cylinder_keys import OF_LINKAGE
+from crankwork.description.keys import OF_LINKAGE
 from crankwork.description.machine_file import Setting, apply_settings, file_keys, parse
 from crankwork.description.schema import TableSpec
 from crankwork.description.stated import stated_numbers
-from crankwork.description.toml_positions import locate
+from crankwork.description.toml_edit import locate
 from crankwork.description.value_types import Reader
 
 _SAME = 1e-9

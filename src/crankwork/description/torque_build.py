@@ -9,11 +9,10 @@ from typing import NamedTuple
 
 from crankwork.analysis.given_torques import analyse_turning
 from crankwork.description.build import build_method, crank_speed
-from crankwork.description.drive_build import read_drive
-from crankwork.description.flywheel_build import read_flywheel
+from crankwork.description.drive_build import read_drive, read_flywheel
+from crankwork.description.links_keys import FORMS
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
-from crankwork.description.torque_keys import FORMS
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
@@ -66,8 +65,9 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
     if reader.problems or speed is None:
         return None
     turning = _turning(values, _Shaft(speed, method, reader))
-    if turning is not None:
-        _check_rows(turning, values, reader)
+    rows = 0.0 if turning is None else turning.cycle / values["table"].si("step")
+    if rows > _MOST_ROWS:
+        reader.add_error("table.step", ErrorMessage("transient_rows", rows=rows, most=_MOST_ROWS))
     if reader.problems or turning is None:
         return None
     machine = Machine(
@@ -82,13 +82,6 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
         stated=stated_numbers(values),
     )
     return machine if largest is None else _slowed(machine, turning, values, reader)
-
-
-def _check_rows(turning: ShaftTorques, values: Values, reader: Reader) -> None:
-    """Report a step that gives too many rows of a table."""
-    rows = turning.cycle / values["table"].si("step")
-    if rows > _MOST_ROWS:
-        reader.add_error("table.step", ErrorMessage("transient_rows", rows=rows, most=_MOST_ROWS))
 
 
 def _slowed(machine: Machine, turning: ShaftTorques, values: Values, reader: Reader) -> Machine | None:

@@ -7,6 +7,7 @@ import re
 import unicodedata
 from collections.abc import Mapping
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
+from pathlib import Path
 from typing import Any, NamedTuple, Protocol, Self
 
 from crankwork import units
@@ -91,10 +92,17 @@ class MeasuredValue(NamedTuple):
 class Reader:
     """Collects the problems of one description while its values are read.
 
-    `problems` holds the first of them; `more` counts the others.
+    `problems` holds the first of them; `more` counts the others; `folder`: where files named in it are looked for.
     """
 
-    def __init__(self, *, decimal_comma: bool = False, metric_hp: bool = False, gravity: float = units.KGF) -> None:
+    def __init__(
+        self,
+        *,
+        decimal_comma: bool = False,
+        metric_hp: bool = False,
+        gravity: float = units.KGF,
+        folder: Path | None = None,
+    ) -> None:
         self.problems: list[Problem] = []
         self.notices: list[tuple[str, dict[str, float | str]]] = []
         # standard deviations of values, and the tolerances from which they follow, by key [SI]
@@ -102,11 +110,19 @@ class Reader:
         self.tolerances: dict[str, float] = {}
         self.more = 0
         self.decimal_comma, self.metric_hp, self.gravity = decimal_comma, metric_hp, gravity
+        self.folder = folder or Path()
+        # for a reader of another form of the same file
+        self.options: dict[str, Any] = {
+            "decimal_comma": decimal_comma,
+            "metric_hp": metric_hp,
+            "gravity": gravity,
+            "folder": folder,
+        }
         self._blamed: set[str] = set()
         self._suspects: set[str] = set()
 
     @classmethod
-    def of(cls, values: Mapping[str, Any]) -> Self:
+    def of(cls, values: Mapping[str, Any], folder: Path | None = None) -> Self:
         """Return the reader of a file, with the decimal mark, horsepower and gravity that it states."""
         comma, method = values.get("decimal_mark") == ",", values.get("method")
         gravity = method.get("gravity") if isinstance(method, dict) else None
@@ -115,7 +131,8 @@ class Reader:
         except ValueError:
             acceleration = 0.0
         old = values.get("format", 1) == 1
-        return cls(decimal_comma=comma, metric_hp=old, gravity=acceleration if acceleration > 0 else units.KGF)
+        gravity = acceleration if acceleration > 0 else units.KGF
+        return cls(decimal_comma=comma, metric_hp=old, gravity=gravity, folder=folder)
 
     def add_error(self, key: str, message: str, *more: str, meant: str = "") -> None:
         """Add a mistake, or all mistakes of a file; only those added first to a key are kept.

@@ -13,7 +13,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads import gas
 from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece, VolumeAt
 from crankwork.loads.measured_pressure import MeasuredPressure
-from crankwork.loads.pressure import at_angle
+from crankwork.loads.traced_diagram import at_angle
 from crankwork.loads.valves import Valves
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.dyads import Branch

@@ -34,9 +34,8 @@ from crankwork.loads.chamber import (
 )
 from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
 from crankwork.loads.measured_pressure import NoticeData
-from crankwork.loads.pressure import at_angle, pressure_on_piston, traced_pressure
 from crankwork.loads.pressure_processing import PressureReference, measured_diagram
-from crankwork.loads.traced_diagram import DiagramInput
+from crankwork.loads.traced_diagram import DiagramInput, at_angle, pressure_on_piston, traced_pressure
 from crankwork.loads.valves import Flow, StatedValves
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law

@@ -31,9 +31,8 @@ from crankwork.note.contents import note_of, sheets_of, written_note
 from crankwork.note.explain import place_text
 from crankwork.note.interactive import controls, page_data
 from crankwork.note.options import NoteOptions
-from crankwork.page.document import follow, page, sentences, tables, values
+from crankwork.page.document import TraceExport, follow, page, sentences, tables, values
 from crankwork.page.sliders import FAINT, LivePage, Slider, scale
-from crankwork.page.trace_export import TraceExport
 from crankwork.quantities.key import key_of
 from crankwork.report.display import in_own_units, key_unit
 from crankwork.report.drawing import drawn, film_of
@@ -47,11 +46,9 @@ from crankwork.show.animation import Animation
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
 from crankwork.show.scene import Drawing
-from crankwork.studio.additions import additions, with_addition
-from crankwork.studio.form import form, stated_text
-from crankwork.studio.pmks import from_pmks, is_pmks
-from crankwork.studio.sketch import dyads, handles, measured, missing, redrawn, sketched, swapped
-from crankwork.study.map_figures import map_drawings
+from crankwork.studio.form import additions, form, stated_text, with_addition
+from crankwork.studio.sketch import dyads, from_pmks, handles, is_pmks, measured, missing, redrawn, sketched, swapped
+from crankwork.study.figures import map_drawings
 from crankwork.study.parameter_map import ends_of, map_text, mapped
 from crankwork.study.sliders import around, ends, moved
 from crankwork.units import from_si, use_units
@@ -579,8 +576,8 @@ def _swept(
     description: Description, over: Mapping[str, str], request: Mapping[str, Any], language: Language,
     progress: Callable[[float], None],
 ) -> dict[str, Any]:  # fmt: skip
+    from crankwork.study.figures import found_drawings  # noqa: PLC0415 - only sweeps need its parts
     from crankwork.study.runner import ExecutionOptions, run_study  # noqa: PLC0415
-    from crankwork.study.study_figures import found_drawings  # noqa: PLC0415 - only sweeps need its parts
     from crankwork.study.study_file import read_study  # noqa: PLC0415
     from crankwork.study.study_text import found_text  # noqa: PLC0415
 

@@ -17,7 +17,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.report.display import key_unit
 from crankwork.study.search import REACHED, Candidate, DesignSpace, Problem, SearchMethod, searched, written_limits
 from crankwork.study.study_file import Study
-from crankwork.study.sweep import Swept, units_of
+from crankwork.study.variants import Swept, units_of
 from crankwork.units import coherent_unit, from_si, use_units
 
 STARTS = 4

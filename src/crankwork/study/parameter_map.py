@@ -22,6 +22,7 @@ from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import Input
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage, Language, capital, in_language, translate
+from crankwork.locale.numbers import aligned
 from crankwork.machine import Machine
 from crankwork.report.display import displayed_column, key_unit, label, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
@@ -130,8 +131,7 @@ class _Point(NamedTuple):
 
 def _settings(fields: Mapping[str, NumericField], design: Array) -> list[Setting]:
     """Return the settings of a point. [SI]"""
-    pairs = zip(fields.items(), design.tolist(), strict=True)
-    return [Setting("--over", key, field.written(value)) for (key, field), value in pairs]
+    return [field.setting(value, "--over") for field, value in zip(fields.values(), design.tolist(), strict=True)]
 
 
 def _together(
@@ -277,8 +277,7 @@ def _lines(parameter_map: Map, language: Language) -> Iterator[str]:
         for key in parameter_map.varying
         if not key.endswith("_angle")
     ]
-    wide = [max((len(row[column]) for row in rows), default=0) for column in range(2)]
-    yield from (f"  {name:<{wide[0]}}  {low:<{wide[1]}}  {high}" for name, low, high in rows)
+    yield from aligned(rows)
     for key, keys in parameter_map.independent.items():
         names = ", ".join(label(name, language) for name in keys if not name.endswith("_angle"))
         yield from ("", translate("study.independent", language, field=key), f"  {capital(names) if names else '-'}")

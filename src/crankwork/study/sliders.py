@@ -148,10 +148,7 @@ class _Machines:
 
     def results(self, design: Array) -> Results:
         """Return the results of a design; raise an error if its crank no longer turns through."""
-        settings = [
-            Setting(_OPTION, number.key, number.written(float(value)))
-            for number, value in zip(self._numbers, design, strict=True)
-        ]
+        settings = [number.setting(value, _OPTION) for number, value in zip(self._numbers, design, strict=True)]
         results = analyse(self._description.machine([*self._overrides, *settings]))
         if "crank_range" in results.summary and "crank_range" not in self._stated.summary:
             raise CrankworkError(ErrorMessage("slider_no_turn"))

@@ -82,15 +82,22 @@ def parse_target(parts: TargetText, results: Results) -> Target:
 
 def level(key: str, text: str) -> float:
     """Return a target in SI; a bare number is in the unit of the tables."""
+    try:
+        return level_of(key, text)
+    except ValueError as error:
+        option = f"{key} = {text[:40]}"
+        raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=error.args[0])) from None
+
+
+def level_of(key: str, text: str) -> float:
+    """Return a level of a value in SI; ValueError with the mistake if the text is none."""
     unit = key_unit(key)
     try:
         value = parse_in(text, unit) if unit else float(text.replace(",", "."))
     except ValueError as error:
-        mistake = error.args[0] if unit else ErrorMessage("level_plain", text=text[:40])
-        raise CrankworkError(ErrorMessage("option_wrong", option=f"{key} = {text[:40]}", mistake=mistake)) from None
+        raise ValueError(error.args[0] if unit else ErrorMessage("level_plain", text=text[:40])) from None
     if not math.isfinite(value):
-        raise CrankworkError(ErrorMessage("option_wrong", option=f"{key} = {text[:40]}",
-                                     mistake=ErrorMessage("level_plain", text=text[:40])))  # fmt: skip
+        raise ValueError(ErrorMessage("level_plain", text=text[:40]))
     return value
 
 
@@ -232,7 +239,7 @@ def solve(  # noqa: PLR0913 - equation, unknown and options of the search
     where = search_points(number, *limits, steps)
 
     def machine_with(value: float | None) -> Machine:
-        changed = [] if value is None else [Setting("--for", sought, number.written(value))]
+        changed = [] if value is None else [number.setting(value, "--for")]
         return description.machine([*overrides, *changed])
 
     target, machine, results = _first_with_value(parts, machine_with, where)

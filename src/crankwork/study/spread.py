@@ -334,8 +334,8 @@ class _Neighbours:
 
     def _results(self, design: Array) -> Results:
         changes = [
-            Setting(key, key, number.written(value))
-            for (key, number), value, middle in zip(self._numbers.items(), design.tolist(), self._middle, strict=True)
+            number.setting(value)
+            for number, value, middle in zip(self._numbers.values(), design.tolist(), self._middle, strict=True)
             if value != middle
         ]
         return with_requested(analyse(self._description.machine([*self._overrides, *changes])), self._keys)

@@ -20,11 +20,11 @@ from crankwork.description.schema import KeySpec, MapOf, OneOrMore, TableSpec, V
 from crankwork.description.value_types import Choice, Flag, MeasuredValue, Number, Reader, Text, shown
 from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage, Language
-from crankwork.report.display import key_unit
 from crankwork.study.search import SearchMethod
+from crankwork.study.solve import level_of
 from crankwork.study.variants import check_single
 from crankwork.study.varied_field import VariedField
-from crankwork.units import System, parse_in, use_units
+from crankwork.units import System, use_units
 
 # number of points of a Sobol sequence of 30 bits
 MAX_DESIGNS = 2**30
@@ -439,21 +439,16 @@ def _wanted(read: Values, results: Results, reader: Reader) -> tuple[dict[str, t
 
 def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:
     """Return lower and upper limit of a value; a bare number is in the unit of the tables. [SI]"""
-    unit, ends = key_unit(key), dict(_LIMITS)
+    ends = dict(_LIMITS)
     for name, written in stated.items():
         path = f"limits.{key}.{name}"
         if isinstance(written, bool) or not isinstance(written, int | float | str):
             reader.add_error(path, ErrorMessage("level_plain", text=shown(written)))
             continue
         try:
-            value = parse_in(str(written), unit) if unit else float(str(written).replace(",", "."))
+            ends[name] = level_of(key, str(written))
         except ValueError as error:
-            reader.add_error(path, error.args[0] if unit else ErrorMessage("level_plain", text=str(written)[:40]))
-            continue
-        if math.isfinite(value):
-            ends[name] = value
-        else:
-            reader.add_error(path, ErrorMessage("level_plain", text=str(written)[:40]))
+            reader.add_error(path, error.args[0])
     if not ends["at_least"] <= ends["at_most"]:
         reader.add_error(f"limits.{key}", ErrorMessage("limits_apart"))
     return ends["at_least"], ends["at_most"]

@@ -145,5 +145,4 @@ class VariedField:
 
     def setting(self, value: float) -> Setting:
         """Return the setting of a design."""
-        stated = self.values[int(value)] if self.number is None else self.number.written(float(value))
-        return Setting(self.key, self.key, stated)
+        return self.number.setting(value) if self.number else Setting(self.key, self.key, self.values[int(value)])

@@ -26,7 +26,7 @@ from crankwork.loads.indicator import (
     Segment,
     VolumeAt,
 )
-from crankwork.loads.pressure import at_angle, traced_pressure
+from crankwork.loads.traced_diagram import at_angle, traced_pressure
 from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners
 from crankwork.working_cycle.closed_gas import (
