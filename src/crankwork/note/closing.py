@@ -56,8 +56,8 @@ _NUMBERS = (
     "effective_power", "indicated_power", "motor_power", "shaft_power",
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
-    "slider_stroke", "slider_velocity_max", "slider_acceleration_max",
-    "joint_force_max", "crankpin_load_max", "excess_work", "flywheel_inertia",
+    "slider_stroke", "joint_force_max", "slider_velocity_max", "slider_acceleration_max",
+    "crankpin_load_max", "excess_work", "flywheel_inertia",
     "flywheel_inertia.exact", "speed_fluctuation", "standard_motor_power", "piston_velocity_max",
     "piston_acceleration_max", "piston_acceleration_min",
 )  # fmt: skip
@@ -67,6 +67,8 @@ _SAME = {
     "flywheel_inertia.exact": ("flywheel_inertia",),
 }  # fmt: skip
 _GLANCE = 10
+# sentences of a conclusion that needs no table
+_FEWEST = 3
 # the machine and its main results stand on one page [mm]
 _HIGHEST = 85.0
 
@@ -248,16 +250,14 @@ def _left_out(material: Material) -> Iterator[Block]:
 
 
 def _conclusion(material: Material) -> Iterator[Block]:
-    """Yield what the results mean, of a linkage also the main ones as a table."""
+    """Yield what the results mean; where few sentences say it, and in the full note of a linkage, a table as well."""
     read = concluded(material) if material.has_piston else concluded_of_linkage(material)
     sentences = tuple(paragraph.runs for paragraph in read)
     if sentences:
         yield ItemList(sentences)
-    if not material.has_piston:
+    if not material.has_piston and (material.full or len(sentences) < _FEWEST):
         yield material.words.paragraph("conclusion", table=Reference("t:summary"))
-        rows = [_row(material, key) for key in _main_keys(material)]
-        # side by side their names would take three lines each
-        yield value_table("summary", rows, material.words, parts=2 if material.full else 1)
+        yield value_table("summary", [_row(material, key) for key in _main_keys(material)], material.words)
 
 
 def _main_keys(material: Material) -> list[str]:
