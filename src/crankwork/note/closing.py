@@ -18,7 +18,7 @@ from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Section, Shown, When, drawn, every, full, has, lacks, written
 from crankwork.note.printed_units import printed_unit
-from crankwork.note.readings import ROUNDING, concluded, concluded_of_linkage
+from crankwork.note.readings import agree, concluded, concluded_of_linkage
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, short_rows, value_row, value_table
 from crankwork.note.wording import Words, named
@@ -137,12 +137,9 @@ def _checks(material: Material) -> Iterator[Block]:
     largest_errors = errors(material)
     if material.has_piston and not material.full and not results.unmet:
         yield from _all_hold(material)
-    elif results.checks and not material.full and max(results.checks.values()) < ROUNDING:
-        shown = [_identity(key, words) for key in results.checks]
-        yield words.paragraph(
-            "agreeing",
-            which=tuple(run for index, item in enumerate(shown) for run in (["; "] if index else []) + [item]),
-        )
+    elif results.checks and not material.full and agree(results.checks):
+        shown = (translate(f"report.{key}", words.language) for key in results.checks)
+        yield words.paragraph("agreeing", which="; ".join(shown))
     elif results.checks:
         before = () if material.has_piston else (*words.sentence("identities"), " ")
         yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
@@ -227,13 +224,11 @@ def _all_hold(material: Material) -> Iterator[Block]:
     """Yield that all checks hold, where there are any."""
     checks, words = material.results.checks, material.words
     if checks:
-        largest, count = max(checks.values()), str(len(checks))
-        residual = words.number(100.0 * largest, digits=2)
-        yield (
-            words.paragraph("all_agree", count=count)
-            if largest < ROUNDING
-            else words.paragraph("all_hold", count=count, residual=residual)
+        key, residual = (
+            "all_agree" if agree(checks) else "all_hold",
+            words.number(100.0 * max(checks.values()), digits=2),
         )
+        yield words.paragraph(key, count=str(len(checks)), residual=residual)
 
 
 def _left_out(material: Material) -> Iterator[Block]:

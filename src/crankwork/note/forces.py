@@ -114,22 +114,20 @@ def _sizes(material: Material) -> Iterator[Block]:
     if not weight or not inertia or machine.chambers:
         return
     process = max((load.amounts["force"][0] or 0.0 for load in loads if load.kind == "slider"), default=0.0)
-    if process == 0.0 and any(load.kind != "weight" for load in loads):
+    kinds = {load.kind for load in loads}
+    if not process and kinds - {"weight"}:
         # what other loads come to is not stated as a force
         return
-    force = {name: words.amount(value, key_unit("joint_force"), digits=4) for name, value in
-             (("weight", weight), ("inertia", inertia), ("force", process))}  # fmt: skip
-    load = words.phrase("sizes_load", force=force.pop("force")) if process else ""
-    sentences = words.sentence("sizes", load=load, weight=force["weight"], inertia=force["inertia"])
     sizes = {"load": process, "inertia": inertia, "weight": weight}
-    if any(load.kind == "weight" for load in loads):
-        sentences += (" ", *words.sentence(f"ruled_by_{max(sizes, key=sizes.__getitem__)}"))
-    elif weight > _NOTABLE * max(process, inertia):
-        share = words.fixed(100.0 * weight / max(process, inertia), 0)
-        sentences += (" ", *words.sentence("weight_left_out", share=share))
-    else:
-        sentences += (" ", *words.sentence("ruled_by_load" if process > inertia else "ruled_by_inertia"))
-    yield Paragraph(sentences)
+    force = {key: words.amount(size, key_unit("joint_force"), digits=4) for key, size in sizes.items()}
+    share = weight / max(process, inertia)
+    force["load"] = words.phrase("sizes_load", force=force["load"]) if process else ""
+    if "weight" not in kinds:
+        del sizes["weight"]
+    omitted = "weight" not in kinds and share > _NOTABLE
+    verdict = "weight_left_out" if omitted else f"ruled_by_{max(sizes, key=sizes.__getitem__)}"
+    ruling = words.sentence(verdict, share=words.fixed(100.0 * share, 0))
+    yield Paragraph((*words.sentence("sizes", **force), " ", *ruling))
 
 
 def _lever(material: Material) -> Iterator[Block]:
