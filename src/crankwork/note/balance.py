@@ -2,29 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from crankwork.formula.calculation_lines import ValueLine
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, in_order
 from crankwork.mechanism.mechanism import Crank
+from crankwork.note import layout
 from crankwork.note.document import Block, Citation, Equation, Reference, Runs
 from crankwork.note.equations import value_box
-from crankwork.note.layout import (
-    DOT,
-    EQUALS,
-    PRODUCT,
-    Box,
-    Digits,
-    Fence,
-    Fraction,
-    PrintedEquation,
-    Root,
-    Script,
-    Sign,
-    Upright,
-    row,
-)
 from crankwork.note.material import Material
 from crankwork.note.parts import At, Head, Lines, Places, Rows, Section, Shown, Text, When, every, full, has, turning
 from crankwork.note.symbols import number_box, symbol_box
@@ -32,6 +17,8 @@ from crankwork.note.wording import in_display_unit, named
 from crankwork.quantities.key import key_of
 
 _BALANCE = "den_hartog_1956, ch. 5"
+# significant digits of what is put into the unbalance of a counterweight
+_DIGITS = 5
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _OF_ORDERS = (
     "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force", "moment_factor", "free_moment",
@@ -65,41 +52,30 @@ def _counterweight(material: Material) -> Iterator[Block]:
     if angle is None or not isinstance(node, ProcedureValue) or node.by is None or not isinstance(driver, Crank):
         return
     yield words.paragraph("counterweight", value=words.amount(angle, "deg", digits=material.digits))
-    speed, value = results.solved.speed, results.summary[key]
-    parts = {
-        f"{wave.node.operands[0].key},{wave.node.part[0]}": wave.value
+    waves = {
+        f"{wave.node.operands[0].key[-1]},{wave.node.part[0]}": wave.value
         for wave in in_order([node.by])
         if isinstance(wave.node, HarmonicCoefficient)
     }
-
-    signs = ("+", "−") if driver.direction > 0 else ("−", "+")
-    sums = ("x,c", signs[0], "y,s"), ("y,c", signs[1], "x,s")
-    # as many digits as give the value again
-    lost = max(map(abs, parts.values())) / (2 * value * speed**2)
-    digits = material.digits + max(0, math.ceil(math.log10(lost)))
-
-    def written(shown: Callable[[str], Box], times: Box, rate: Box) -> Box:
-        squares = [_squared(Fence(row(shown(first), Sign(sign), shown(second)))) for first, sign, second in sums]
-        return Fraction(Root(row(squares[0], Sign("+"), squares[1])), row(Digits("2"), times, _squared(rate)))
-
-    def letter(name: str) -> Box:
-        return symbol_box(f"{words.symbol('shaking_force')},{name}")
-
-    def number(name: str) -> Box:
-        wave = parts[f"shaking_force_{name}"]
-        box = number_box(wave, words.language, digits)[0]
-        return Fence(box) if wave < 0 else box
-
-    letters = written(letter, PRODUCT, symbol_box(words.symbol("speed")))
-    numbers = written(number, DOT, number_box(speed, words.language, digits)[0])
-    result = value_box(value, "kg*m", words.language, material.digits)
-    lines = row(symbol_box(words.symbol(key)), EQUALS, letters), row(EQUALS, numbers, EQUALS, result)
+    letters, numbers = list[layout.Box](), list[layout.Box]()
+    for first, second, sign in (("x,c", "y,s", driver.direction), ("y,c", "x,s", -driver.direction)):
+        names = [symbol_box(f"{words.symbol('shaking_force')},{name}") for name in (first, second)]
+        letters.append(layout.Fence(layout.row(names[0], layout.Sign("+" if sign > 0 else "−"), names[1])))
+        numbers.append(number_box(abs(waves[first] + sign * waves[second]), words.language, _DIGITS)[0])
+    name, value, rate = symbol_box(words.symbol(key)), results.summary[key], symbol_box(words.symbol("speed"))
+    speed = number_box(results.solved.speed, words.language, _DIGITS)[0]
+    shown = value_box(value, "kg*m", words.language, material.digits)
+    formula = layout.row(name, layout.EQUALS, _of_harmonic(letters, layout.PRODUCT, rate))
+    worked = layout.row(layout.EQUALS, _of_harmonic(numbers, layout.DOT, speed), layout.EQUALS, shown)
     text = f"{words.symbol(key)} = {words.amount(value, 'kg*m', digits=material.digits)}"
-    yield Equation(ValueLine(key, value), printed=PrintedEquation(lines, text))
+    yield Equation(ValueLine(key, value), printed=layout.PrintedEquation((formula, worked), text))
 
 
-def _squared(box: Box) -> Box:
-    return Script(box, None, Upright("2"))
+def _of_harmonic(parts: list[layout.Box], times: layout.Box, rate: layout.Box) -> layout.Box:
+    """Return half the magnitude of two parts over the square of a speed."""
+    first, second, below = (layout.Script(box, None, layout.Upright("2")) for box in (*parts, rate))
+    top = layout.Root(layout.row(first, layout.Sign("+"), second))
+    return layout.Fraction(top, layout.row(layout.Digits("2"), times, below))
 
 
 SECTIONS = (
@@ -110,8 +86,6 @@ SECTIONS = (
     Section("balance", (
         Head("linkage_balance"), Text("shaking", {"source": Citation(_BALANCE)}), At("shaking"), Lines("shaking"),
         When(full, (Places("shaking", _SHAKING, "shaking", filled=True),)),
-        When(lambda material: bool(named(material.results.summary, "free_force")), (
-            _orders, _counterweight,
-        )),
+        When(lambda material: bool(named(material.results.summary, "free_force")), (_orders, _counterweight)),
     ), every(turning, has("shaking_force"))),
 )  # fmt: skip

@@ -18,7 +18,7 @@ from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Section, Shown, When, drawn, every, full, has, lacks, written
 from crankwork.note.printed_units import printed_unit
-from crankwork.note.readings import ROUNDING, concluded, concluded_of_linkage
+from crankwork.note.readings import agree, concluded, concluded_of_linkage
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, short_rows, value_row, value_table
 from crankwork.note.wording import Words, named
@@ -56,8 +56,8 @@ _NUMBERS = (
     "effective_power", "indicated_power", "motor_power", "shaft_power",
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
-    "slider_stroke", "slider_velocity_max", "slider_acceleration_max",
-    "joint_force_max", "crankpin_load_max", "excess_work", "flywheel_inertia",
+    "slider_stroke", "joint_force_max", "slider_velocity_max", "slider_acceleration_max",
+    "crankpin_load_max", "excess_work", "flywheel_inertia",
     "flywheel_inertia.exact", "speed_fluctuation", "standard_motor_power", "piston_velocity_max",
     "piston_acceleration_max", "piston_acceleration_min",
 )  # fmt: skip
@@ -67,6 +67,8 @@ _SAME = {
     "flywheel_inertia.exact": ("flywheel_inertia",),
 }  # fmt: skip
 _GLANCE = 10
+# sentences of a conclusion that needs no table
+_FEWEST = 3
 # the machine and its main results stand on one page [mm]
 _HIGHEST = 85.0
 
@@ -135,12 +137,9 @@ def _checks(material: Material) -> Iterator[Block]:
     largest_errors = errors(material)
     if material.has_piston and not material.full and not results.unmet:
         yield from _all_hold(material)
-    elif results.checks and not material.full and max(results.checks.values()) < ROUNDING:
-        shown = [_identity(key, words) for key in results.checks]
-        yield words.paragraph(
-            "agreeing",
-            which=tuple(run for index, item in enumerate(shown) for run in (["; "] if index else []) + [item]),
-        )
+    elif results.checks and not material.full and agree(results.checks):
+        shown = (translate(f"report.{key}", words.language) for key in results.checks)
+        yield words.paragraph("agreeing", which="; ".join(shown))
     elif results.checks:
         before = () if material.has_piston else (*words.sentence("identities"), " ")
         yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
@@ -225,13 +224,11 @@ def _all_hold(material: Material) -> Iterator[Block]:
     """Yield that all checks hold, where there are any."""
     checks, words = material.results.checks, material.words
     if checks:
-        largest, count = max(checks.values()), str(len(checks))
-        residual = words.number(100.0 * largest, digits=2)
-        yield (
-            words.paragraph("all_agree", count=count)
-            if largest < ROUNDING
-            else words.paragraph("all_hold", count=count, residual=residual)
+        key, residual = (
+            "all_agree" if agree(checks) else "all_hold",
+            words.number(100.0 * max(checks.values()), digits=2),
         )
+        yield words.paragraph(key, count=str(len(checks)), residual=residual)
 
 
 def _left_out(material: Material) -> Iterator[Block]:
@@ -248,16 +245,14 @@ def _left_out(material: Material) -> Iterator[Block]:
 
 
 def _conclusion(material: Material) -> Iterator[Block]:
-    """Yield what the results mean, of a linkage also the main ones as a table."""
+    """Yield what the results mean; where few sentences say it, and in the full note of a linkage, a table as well."""
     read = concluded(material) if material.has_piston else concluded_of_linkage(material)
     sentences = tuple(paragraph.runs for paragraph in read)
     if sentences:
         yield ItemList(sentences)
-    if not material.has_piston:
+    if not material.has_piston and (material.full or len(sentences) < _FEWEST):
         yield material.words.paragraph("conclusion", table=Reference("t:summary"))
-        rows = [_row(material, key) for key in _main_keys(material)]
-        # side by side their names would take three lines each
-        yield value_table("summary", rows, material.words, parts=2 if material.full else 1)
+        yield value_table("summary", [_row(material, key) for key in _main_keys(material)], material.words)
 
 
 def _main_keys(material: Material) -> list[str]:

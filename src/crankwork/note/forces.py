@@ -7,14 +7,14 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.force_plans import force_plans
+from crankwork.analysis.force_plans import constructed_forces, force_plans
 from crankwork.analysis.input_loads import stated_loads
 from crankwork.analysis.mechanism import torque_by_routes
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.vector_polygons import worked_position
 from crankwork.formula.calculation_lines import ValueLine
 from crankwork.locale import translate
-from crankwork.note.document import Block, Citation, Equation, Paragraph, Reference, Table
+from crankwork.note.document import Block, Cell, Citation, Equation, Math, Paragraph, Reference, Run, Runs, Table
 from crankwork.note.layout import EQUALS, Box, Digits, PrintedEquation, Row, Sign, Upright, row
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -38,11 +38,12 @@ from crankwork.note.parts import (
 )
 from crankwork.note.readings import ROUNDING
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
-from crankwork.note.vector_equations import vector_box
+from crankwork.note.vector_equations import READING, vector_box
 from crankwork.report.display import key_unit, link_numbers
 from crankwork.report.forces import force_symbol
 from crankwork.report.notices import skipped_figure_notes
 from crankwork.report.tables import any_nonzero
+from crankwork.units import to_si
 
 _STATICS, _WORK = "artobolevsky_1988, ch. 13", "artobolevsky_1988, ch. 15"
 _ALONG = ("gas_pressure", "gas_force", "piston_acceleration", "inertia_force", "weight_force", "piston_force")
@@ -113,22 +114,20 @@ def _sizes(material: Material) -> Iterator[Block]:
     if not weight or not inertia or machine.chambers:
         return
     process = max((load.amounts["force"][0] or 0.0 for load in loads if load.kind == "slider"), default=0.0)
-    if process == 0.0 and any(load.kind != "weight" for load in loads):
+    kinds = {load.kind for load in loads}
+    if not process and kinds - {"weight"}:
         # what other loads come to is not stated as a force
         return
-    force = {name: words.amount(value, key_unit("joint_force"), digits=4) for name, value in
-             (("weight", weight), ("inertia", inertia), ("force", process))}  # fmt: skip
-    load = words.phrase("sizes_load", force=force.pop("force")) if process else ""
-    sentences = words.sentence("sizes", load=load, weight=force["weight"], inertia=force["inertia"])
     sizes = {"load": process, "inertia": inertia, "weight": weight}
-    if any(load.kind == "weight" for load in loads):
-        sentences += (" ", *words.sentence(f"ruled_by_{max(sizes, key=sizes.__getitem__)}"))
-    elif weight > _NOTABLE * max(process, inertia):
-        share = words.number(100.0 * weight / max(process, inertia), digits=2)
-        sentences += (" ", *words.sentence("weight_left_out", share=share))
-    else:
-        sentences += (" ", *words.sentence("ruled_by_load" if process > inertia else "ruled_by_inertia"))
-    yield Paragraph(sentences)
+    force = {key: words.amount(size, key_unit("joint_force"), digits=4) for key, size in sizes.items()}
+    share = weight / max(process, inertia)
+    force["load"] = words.phrase("sizes_load", force=force["load"]) if process else ""
+    if "weight" not in kinds:
+        del sizes["weight"]
+    omitted = "weight" not in kinds and share > _NOTABLE
+    verdict = "weight_left_out" if omitted else f"ruled_by_{max(sizes, key=sizes.__getitem__)}"
+    ruling = words.sentence(verdict, share=words.fixed(100.0 * share, 0))
+    yield Paragraph((*words.sentence("sizes", **force), " ", *ruling))
 
 
 def _lever(material: Material) -> Iterator[Block]:
@@ -179,6 +178,36 @@ def _equilibrium(material: Material) -> Iterator[Block]:
     if lines:
         yield words.paragraph("equilibrium")
         yield Equation(ValueLine("", 0.0), printed=PrintedEquation(tuple(lines), "; ".join(texts)))
+
+
+def _compared(material: Material) -> Iterator[Block]:
+    """Yield the reactions as they are read on the force plans beside the calculated ones."""
+    results, words, degrees = material.results, material.words, worked_position(material.results)
+    drawing = material.drawn.get("force_plans") if material.full or material.order != "en" else None
+    plots = iter(drawing.plots if drawing is not None else ())
+    numbers = {name: int(number) for name, number in link_numbers(results).items()}
+    unit, solved, rows, scales = words.unit("joint_force"), set[str](), list[tuple[Cell, ...]](), list[Run]()
+    for plan in force_plans(results, degrees):
+        plot = next(plots, None) if len(plan.forces) > 2 else None
+        shown = (plot.x[1] - plot.x[0]) / plot.box.width if plot is not None else 0.0
+        scale = float(to_si(shown, key_unit("joint_force")))
+        lengths = constructed_forces(results, degrees, plan, solved, scale, READING) if shown else {}
+        for force, length in lengths.items():
+            name = force_symbol(force, numbers, words.language).strip("$").replace(" ", ",")
+            size, off = words.shown("joint_force", force.size, digits=4), 100.0 * (length * scale / force.size - 1.0)
+            read = words.fixed(length, 1), words.number(shown * length, digits=4)
+            rows.append((Math(name), *read, size, unit, words.fixed(off, 2)))
+        if lengths:
+            links = ", ".join(str(numbers[link]) for link in plan.links)
+            mark = f" = {words.number(shown, digits=4)} {unit}/{words.unit('point_x')} ({links})"
+            scales += [*(["; "] if scales else []), Math("μ_F"), mark]
+        solved |= {force.name for force in plan.forces}
+    if rows:
+        titles = "vector", "on_plan", "by_plan", "analytic", "unit", "deviation"
+        table = words.table("compared_forces", titles, rows, "crrrcr", "t:compared_forces")
+        values: dict[str, Run | Runs] = {"reading": words.number(READING), "scales": tuple(scales)}
+        yield words.paragraph("forces_compared", table=Reference(table.label), **values)
+        yield table
 
 
 def _route(name: str, values: Array, material: Material) -> Column:
@@ -238,7 +267,7 @@ SECTIONS = (
         Head("reactions", 2), Text("reactions"), _equilibrium,
         When(either(full, lacks(_has_polygons)), (At("joint_forces"), Lines("joint_forces", first=True))),
         Places("reactions", _IN_JOINTS, "reactions", filled=True),
-        Shown(("process_force", "joint_forces", "force_plans")), _undrawn, _sizes,
+        Shown(("process_force", "joint_forces", "force_plans")), _compared, _undrawn, _sizes,
         Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),
     ), _is_loaded),
 )  # fmt: skip

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -126,20 +125,19 @@ def concluded(material: Material) -> Iterator[Paragraph]:
 def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
     """Yield what the results of a linkage mean, in a few sentences."""
     words, summary, checks = material.words, material.summary, material.results.checks
-    moved = _of_output(material)
-    if moved is not None:
-        yield moved
-    yield from (read for read in map(partial(reading, material=material), ("joint_forces", "torques")) if read)
+    sentences = _of_output(material), reading("joint_forces", material), reading("torques", material)
+    yield from (sentence for sentence in sentences if sentence is not None)
     if "mean_torque" in summary and "shaft_power" in summary and summary["shaft_power"] > 0:
         amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in ("mean_torque", "shaft_power")}
         yield words.paragraph("reads_power", **amounts)
     elif "dynamic_torque_max" in summary and "static_torque_max" not in summary and not words.is_partial:
         yield words.paragraph("reads_idle")
-    wheel, wanted = _known_flywheel(summary), material.machine.drive.fluctuation or summary.get("speed_fluctuation")
+    wheel = next((key for key in ("flywheel_inertia", "flywheel_inertia.exact") if summary.get(key, 0.0) > 0), "")
+    wanted = material.machine.drive.fluctuation or summary.get("speed_fluctuation")
     if wheel and wanted:
         shown = words.amount(summary[wheel], key_unit(wheel), digits=4)
         yield words.paragraph("reads_evenness", flywheel_inertia=shown, speed_fluctuation=words.number(wanted))
-    if checks and max(checks.values()) < ROUNDING:
+    if agree(checks):
         agreement = words.sentence("reads_agreement")
         if material.plan_difference is not None:
             share = words.number(100.0 * material.plan_difference, digits=2)
@@ -147,8 +145,9 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
         yield Paragraph(agreement)
 
 
-def _known_flywheel(summary: Mapping[str, float]) -> str:
-    return next((key for key in ("flywheel_inertia", "flywheel_inertia.exact") if summary.get(key, 0.0) > 0), "")
+def agree(checks: Mapping[str, float]) -> bool:
+    """Return whether there are checks, and nothing is left but rounding."""
+    return bool(checks) and max(checks.values()) < ROUNDING
 
 
 def _of_output(material: Material) -> Paragraph | None:

@@ -16,8 +16,6 @@ from crankwork.note.parts import Section, drawn
 from crankwork.note.tables import folded
 from crankwork.report.display import link_label
 
-# joints that stand below one another
-_MOST_PAIRS = 6
 _ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
@@ -90,7 +88,7 @@ def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     if isinstance(driver, Cylinder):
         inside = "–".join(str(links.index(name)) for name in (driver.link, rod_name(driver.link)))
         rows.append((str(len(rows) + 1), link_label(driver.link, words.language), inside, words.term("sliding")))
-    return folded(words.table("pairs", ("number", "pair", "between", "kind"), rows, "cccc"), most=2, long=_MOST_PAIRS)
+    return folded(words.table("pairs", ("number", "pair", "between", "kind"), rows, "cccc"), most=2, long=6)
 
 
 SECTIONS = (Section("structure", (_structure,), drawn),)

@@ -105,9 +105,9 @@ def vector_plans(material: Material) -> Iterator[Block]:
         )
         material.leave_out("velocity_plan", "acceleration_plan")
     compared = material.full or material.order != "en"
-    if compared:
-        material.plan_difference = _largest_difference(exact, drawn)
-    tables = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
+    found = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
+    tables = [table for table, _ in found]
+    material.plan_difference = max(difference for _, difference in found) if compared else None
     values: dict[str, Run | Runs] = {kind: Reference(table.label) for kind, table in zip(_KINDS, tables, strict=True)}
     mm = unit_name("mm", words.language)
     scale = f"\u00a0=\u00a0{words.number(1e3 * scales.length)}\u00a0{mm}/{mm}"
@@ -233,25 +233,17 @@ def plan_vectors(plan: ConstructedPlan) -> dict[tuple[str, str], PlanVector]:
     return {(part.name, part.kind): part for part in (*parts, *plan.similar)}
 
 
-def _largest_difference(exact: Sequence[ConstructedPlan], drawn: Sequence[ConstructedPlan]) -> float:
-    """Return the largest difference of a vector that is long enough, as a share of it."""
-    pairs = [
-        (abs(part.drawn), read_length(plan_vectors(constructed)[key]))
-        for plan, constructed in zip(exact, drawn, strict=True)
-        for key, part in plan_vectors(plan).items()
-    ]
-    return max((abs(read / length - 1.0) for length, read in pairs if length > LEGIBLE), default=0.0)
+def _table(
+    plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, scale: float, words: Words
+) -> tuple[Table, float]:
+    """Return the vectors of a plan and the rates of the links: exact, and beside them as they are read if drawn.
 
-
-def read_length(vector: PlanVector) -> float:
-    """Return the length of a vector as it is read on paper. [mm]"""
-    return round(abs(vector.drawn) / READING) * READING
-
-
-def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, scale: float, words: Words) -> Table:
-    """Return the vectors of a plan and the rates of the links: exact, and beside them as they are read if drawn."""
-    vectors, rows = plan_vectors(plan), list[tuple[Cell, ...]]()
-    read = {key: read_length(part) for key, part in plan_vectors(drawn).items()} if drawn else {}
+    The number is the largest difference of long vectors, as a share of each.
+    """
+    vectors, rows, difference = plan_vectors(plan), list[tuple[Cell, ...]](), 0.0
+    read = (
+        {key: round(abs(part.drawn) / READING) * READING for key, part in plan_vectors(drawn).items()} if drawn else {}
+    )
     most = max(abs(part.drawn) for part in vectors.values())
 
     def cells(exact: float, shown: float, unit: str, *, legible: bool = True) -> tuple[str, ...]:
@@ -269,6 +261,7 @@ def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, sca
         if length > _NOISE * most:
             angle, shown = math.degrees(cmath.phase(part.drawn)) % 360.0, read.get(key, length)
             values = cells(scale * length, scale * shown, _UNITS[order], legible=length > READING)
+            difference = max(difference, abs(shown / length - 1.0)) if length > LEGIBLE else difference
             rows.append((Math(name_of(part, order, words)), words.fixed(angle, 1), words.fixed(shown, 1), *values))
     for link, rate in plan.turning.items():
         if link != 1 and abs(rate) > _NOISE * most * scale:
@@ -277,4 +270,4 @@ def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, sca
     titles = ("by_plan", "analytic", "unit", "deviation") if drawn else ("value", "unit")
     caption, align = ("compared_", "crrrrcr") if drawn else ("plan_", "crrrc")
     caption += _KINDS[order]
-    return words.table(caption, ("vector", "angle", "on_plan", *titles), rows, align, f"t:{caption}")
+    return words.table(caption, ("vector", "angle", "on_plan", *titles), rows, align, f"t:{caption}"), difference

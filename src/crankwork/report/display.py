@@ -190,13 +190,7 @@ def _part(kind: str, name: str, language: Language) -> str:
 
 
 def link_label(link: str, language: Language) -> str:
-    """Return the name of a link or guide; names that templates give are those of the language, `rod_1` with its number.
-
-    Examples
-    --------
-    >>> link_label("rod_1", "ru"), link_label("rod_of_mine", "ru")
-    ('шатун 1', 'rod_of_mine')
-    """
+    """Return the name of a link or guide; names that templates give, `rod_1` too, are those of the language."""
     names = texts("parts", language)
     kind, _, number = link.rpartition("_")
     return f"{names[kind]} {number}" if number.isdecimal() and kind in names else names.get(link, link)

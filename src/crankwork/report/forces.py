@@ -168,11 +168,11 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
     width -= _list_width()
     list_corner = (left + 14, top + _HEAD + height) if is_narrow() else (left + width, top + _HEAD)
     unit = points_per_mm() / scale
-    middle = (ends.min(axis=0) + ends.max(axis=0)) / 2 * unit
-    x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)
+    middle, half = (ends.min(axis=0) + ends.max(axis=0)) / 2, np.array([width, height]) / 2 / unit
+    x, y = zip(*(middle - half, middle + half), strict=True)
     graph = Graph(paper, ChartBox(left, top + _HEAD, width, height), x, y, language, to_scale=False)
     marks = []
-    corners = np.array([graph.point(*(end * unit)) for end in ends])
+    corners = np.array([graph.point(*end) for end in ends])
     sides = _separated_sides(corners)
     for index, force in enumerate(plan.forces):
         start, end = sides[index]
