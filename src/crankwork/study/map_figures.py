@@ -130,7 +130,7 @@ def _surface(
     across, up = np.unravel_index(np.nanargmax(values), values.shape)
     largest = graph.point(float(x[across]), float(y[up]))
     contours(graph, field, levels[(levels > low) & (levels < high)], largest)
-    paper.dot(*largest, 2.6, fill="#ffffff", width=1.0)
+    paper.dot(*largest, 2.6, fill="#ffffff", width=0.9)
     graph.x_title(_axis(parameter_map, over[0], language))
     graph.y_title(_axis(parameter_map, over[1], language))
     return paper.drawing(_title(key, language), language)
@@ -148,7 +148,7 @@ def _curve(
         if np.isfinite(value):
             paper.dot(*graph.point(position, value), 1.3)
     largest = int(np.nanargmax(values))
-    paper.dot(*graph.point(float(x[largest]), float(values[largest])), 2.6, fill="#ffffff", width=1.0)
+    paper.dot(*graph.point(float(x[largest]), float(values[largest])), 2.6, fill="#ffffff", width=0.9)
     graph.x_title(_axis(parameter_map, over[0], language))
     graph.y_title(axis_title(key, language))
     return paper.drawing(_title(key, language), language)
