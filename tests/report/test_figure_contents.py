@@ -12,6 +12,8 @@ import pytest
 
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.quantities.quantity import use_numbers
+from crankwork.report.display import link_numbers
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.look import math_symbol, quantity_of
 from crankwork.show.canvas import marked
@@ -155,7 +157,8 @@ def test_a_legend_has_the_line_of_the_curve_that_it_names(name):
                 pens = {one.kind for one in drawing.items if isinstance(one, Polyline) and one.name == key}
                 if key.partition(".")[0] in QUANTITIES and pens:
                     # of curves of one kind the axis has the name
-                    named = marked(math_symbol(quantity_of(key).symbol(drawing.language)))
+                    with use_numbers(link_numbers(results_of(name))):
+                        named = marked(math_symbol(quantity_of(key).symbol(drawing.language)))
                     is_told = quantity_of(key).label(drawing.language) in plot.titles.get("y", "") or any(
                         text.startswith(named) or f", {named}" in text for kind, text in rows if kind in pens
                     )

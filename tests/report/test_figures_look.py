@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import re
 
 import numpy as np
 import pytest
 
 from crankwork.description.machine_file import read_machine
+from crankwork.locale.numbers import unit_name
 from crankwork.note.sheets import drawn_sheets
 from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import film_of
@@ -17,7 +19,7 @@ from crankwork.show.chart import Graph, round_ticks, sheet
 from crankwork.show.chart_layout import ChartLayout, use_layout
 from crankwork.show.label_placement import mark_point
 from crankwork.show.pdf import png
-from crankwork.show.scene import ChartBox, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
+from crankwork.show.scene import ChartBox, Circle, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
 from crankwork.show.svg import svg
 from each import for_each
 from expansions import of_linkage
@@ -109,8 +111,8 @@ def test_names_are_printed_as_they_are_written():
     for name, wanted in {
         "position_plans": ("P^{2}", "c_{1}"), "velocity_plan": ("v P^{2} =", "v c_{1}P^{2} ="),
         "force_plans": ("R P^{2} =",), "joint_forces": ("R P^{2}",), "film": ("P^{2}", "c_{1}"),
-        "sliders": ("acceleration of slider s$l{i}",), "links": ("of link r/{d}",),
-        "chambers": ("gas force, h^{a}",), "centrodes": ("P^{2}", "centrode of link r/{d}"),
+        "sliders": ("3 – s$l{i}",), "links": ("2 – r/{d}",),
+        "chambers": ("gas force, h^{a}",), "centrodes": ("P^{2}", "centrode of link 2"),
         "zhukovsky_lever": ("pP^{2} = ",),
         "linkage-kinematics": ("2 – r/{d}", "c_{1}"), "linkage-forces": ("R P^{2}",),
     }.items():  # fmt: skip
@@ -173,6 +175,30 @@ def test_curves_of_a_graph_are_told_apart_in_grey_and_seen_on_paper(name):
             alike = [pair for pair in itertools.combinations(pens, 2) if not _are_apart(*(pens[one] for one in pair))]
             assert alike == [], figure
             assert all(_contrast(shade_of(one)) >= CONTRAST for one in pens.values()), figure
+
+
+# units of one quantity, of which the figures of a machine have one
+UNITS_OF_ONE = (("N", "kN"), ("N*m", "kN*m"), ("J", "kJ"), ("W", "kW"), ("MPa", "bar", "kPa", "Pa"))
+
+
+def _units(drawing, names):
+    """Return which of some units stand behind numbers or at the end of titles of axes."""
+    told = [item.text for item in drawing.items if isinstance(item, Text)]
+    shown = {unit: re.escape(unit_name(unit, drawing.language)) for unit in names}
+    return {unit for unit, name in shown.items() for text in told
+            if re.search(rf"(?:, |\(|\d[ \u00a0]){name}(?![\w·/])", text)}  # fmt: skip
+
+
+@in_parts("name", FEW, REST)
+def test_figures_of_a_machine_have_one_unit_for_a_quantity_and_two_widths_of_lines(name):
+    drawn = figures_of(name)
+    units = {names: set().union(*(_units(one, names) for one in drawn.values())) for names in UNITS_OF_ONE}
+    assert {names: found for names, found in units.items() if len(found) > 1} == {}
+    pens = {figure: {pen_of(item.kind).width for item in one.items if isinstance(item, Polyline | Circle)} - {0.0}
+            for figure, one in drawn.items()}  # fmt: skip
+    # 0.9 pt for what is meant, 0.45 pt for all else
+    wide = {figure: {round(width / 25.4 * 72, 3) for width in found} - {0.45, 0.9} for figure, found in pens.items()}
+    assert {figure: found for figure, found in wide.items() if found} == {}
 
 
 def test_letters_without_a_glyph_are_boxes_in_a_picture_and_not_lost():

@@ -51,7 +51,7 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
         drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area)
     formats = {"pdf": page, "svg": svg, "dxf": dxf}
     return {
-        f"-sheet-{number}.{ending}": written(sheet.drawing)
+        f"-sheet-{number}.{ending}": written(sheet.drawing, "black")
         for number, sheet in enumerate(drawn, start=1)
         for ending, written in formats.items()
     }

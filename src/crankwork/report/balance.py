@@ -9,20 +9,18 @@ import numpy as np
 
 from crankwork.analysis.load_diagrams import Locus
 from crankwork.locale import translate
-from crankwork.report.display import units_of
 from crankwork.report.look import Drawn
 from crankwork.show.canvas import BLACK, WIDER, Canvas, text_width
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, legend, legend_height, round_ticks, small_text
 from crankwork.show.chart_layout import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID
-from crankwork.units import use_units
 
 # between values of neighbouring bars [pt]
 _BETWEEN = 5.0
 # of the inertia force of a piston, what of free forces is told in words, and what is rounding
 _HARDLY, _LEFT = 1e-3, 1e-9
-# across the cylinders, what of a free force is nothing, and how wide it is shown then, of its height
-_LINE, _NARROW = 1e-6, 0.4
+# how wide a locus is, of its length, that is a line
+_LINE = 1e-6
 
 
 class Bars(NamedTuple):
@@ -36,7 +34,7 @@ def _fill(paper: Canvas, corners: tuple[float, float, float, float], kind: int) 
     """Draw a bar from left, top, right, bottom [pt]: white, hatched, grey, hatched back, black or hatched across."""
     left, top, right, bottom = corners
     fill = ("#ffffff", "#ffffff", "#b0b0b0", "#ffffff", BLACK, "#ffffff")[kind]
-    paper.area([left, right, right, left], [top, top, bottom, bottom], fill=fill, width=0.7)
+    paper.area([left, right, right, left], [top, top, bottom, bottom], fill=fill, width=0.45)
     for slope in {1: (1,), 3: (-1,), 5: (1, -1)}.get(kind, ()):
         width = right - left
         rise = np.arange(top - width + 3.5, bottom, 3.5)
@@ -44,7 +42,7 @@ def _fill(paper: Canvas, corners: tuple[float, float, float, float], kind: int) 
         a, b = left + (start - rise), left + (end - rise)
         if slope < 0:
             a, b = right - (start - rise), right - (end - rise)
-        paper.segments(np.column_stack([a, start, b, end]), width=0.5)
+        paper.segments(np.column_stack([a, start, b, end]), width=0.45)
 
 
 def bar_graph(
@@ -64,7 +62,7 @@ def bar_graph(
     graph.frame(np.array([]), ticks)
     for place, order in enumerate(orders):
         present = [index for index, bar in enumerate(bars) if order in bar.heights]
-        width = 0.8 / max(len(bars), 1)
+        width = 0.45 / max(len(bars), 1)
         start = place + 0.5 - width * len(present) / 2
         values = [engine.number(bars[which].heights[order], 4) for which in present]
         room = box.width / len(orders) * width - _BETWEEN
@@ -144,9 +142,8 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     swatches(paper, texts, fills)
     for panel in (panel for panel in sizes if panel not in panels):
         key = f"free_{panel}"
-        with use_units(units_of(engine.results, key, most[panel])):
-            # of forces that cancel rounding is left
-            size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
+        # of forces that cancel rounding is left
+        size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
         free = f"{translate(f'drawing.{key}', language)} {engine.symbol(key)}"
         text = translate("drawing.hardly_free", language, free=free, size=size)
         paper.text(current_layout().left, TOP + head - 9.4, text)
@@ -154,14 +151,13 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     graphs: dict[str, Graph] = {}
     for index, panel in enumerate(panels):
         key = f"free_{panel}"
-        with use_units(units_of(engine.results, key, most[panel])):
-            bars = [
-                Bars(kind, {order: float(engine.shown(key, value)) for order, value in heights.items()})
-                for kind, heights in sizes[panel].items()
-            ]
-            box = ChartBox(current_layout().left, TOP + head + index * (height + 28), current_layout().inner, height)
-            graphs[panel] = bar_graph(engine, paper, box, bars, orders, fills)
-            graphs[panel].y_title(f"{translate(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
+        bars = [
+            Bars(kind, {order: float(engine.shown(key, value)) for order, value in heights.items()})
+            for kind, heights in sizes[panel].items()
+        ]
+        box = ChartBox(current_layout().left, TOP + head + index * (height + 28), current_layout().inner, height)
+        graphs[panel] = bar_graph(engine, paper, box, bars, orders, fills)
+        graphs[panel].y_title(f"{translate(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
     graphs[panels[-1]].x_title(translate("report.order", language, order="$q$"))
     return paper, graphs
 
@@ -176,9 +172,19 @@ def _free(engine: Drawn, panel: str) -> float:
     return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
 
 
+def curved_loci(engine: Drawn) -> dict[int, tuple[Locus, Locus]]:
+    """Return the loci of the free forces that are curves; a force to and fro along a line is a number of its order."""
+    return {order: pair for order, pair in engine.diagrams.loci.items() if not all(map(_is_line, pair))}
+
+
+def _is_line(locus: Locus) -> bool:
+    sizes = np.linalg.svd(np.column_stack([locus.across, locus.up]), compute_uv=False)
+    return bool(sizes[1] <= _LINE * sizes[0])
+
+
 def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the closed curves in which the free forces of each order run, before and after balancing."""
-    loci, language = engine.diagrams.loci, engine.language
+    loci, language = curved_loci(engine), engine.language
     is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
     styles = {"before": DASHED, "after": SOLID} if is_balanced else {}
     rows = [Row(translate(f"drawing.{name}", language), style) for name, style in styles.items()]
@@ -207,13 +213,9 @@ def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def _locus(engine: Drawn, paper: Canvas, box: ChartBox, before: Locus, after: Locus, *, is_balanced: bool) -> Graph:
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
-    width = max(float(np.max(np.abs(locus.across))) for locus in (before, after))
-    # forces of an engine in line go to and fro along its cylinders
-    share = 1.0 if width > _LINE * max(before.largest, after.largest) else _NARROW
-    box = box._replace(left=box.left + (1 - share) / 2 * box.width, width=share * box.width)
-    graph = Graph(paper, box, (-share * reach, share * reach), (-reach, reach), engine.language)
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
     box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.height / 32))))
-    graph.frame(ticks[np.abs(ticks) < share * reach], ticks)
+    graph.frame(ticks, ticks)
     middle = graph.point(0.0, 0.0)
     paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.45)
     drawn = [("before", before, DASHED if is_balanced else SOLID)] + ([("after", after, SOLID)] if is_balanced else [])
@@ -222,7 +224,7 @@ def _locus(engine: Drawn, paper: Canvas, box: ChartBox, before: Locus, after: Lo
         graph.curve(name, across, up, style)
         if locus.largest > 1e-3 * max(before.largest, after.largest):
             end = graph.point(float(across[0]), float(up[0]))
-            paper.arrow(middle, end, width=1.0)
+            paper.arrow(middle, end, width=0.9)
         else:
             paper.dot(*middle, 2.2)
     return graph

@@ -36,11 +36,13 @@ from crankwork.show.scene import DASH_DOT, DASHED, STYLES
 
 _HEIGHT, _MARGIN, _LOWEST = 340.0, 1.12, 0.55
 # rays and circle of the mean of a polar diagram, and what is as narrow as a stick
-_RAYS, _RAY, _MEAN, _STICK = 30.0, "#8c8c8c", 0.7, 0.12
+_RAYS, _RAY, _MEAN, _STICK = 30.0, "#8c8c8c", 0.45, 0.12
 # marks nearer than this to another one have no number [pt]
 _CROWDED = 10.0
 # what numbers and title take beside polar diagrams of main journals [pt]
 _LEFT_MARGIN = 60.0
+# the side of one at most [pt]
+_SIDE = 320.0
 
 
 class _OverCycle(NamedTuple):
@@ -74,7 +76,7 @@ def _pin_polar(engine: Drawn, load: CrankpinLoad, pin: str = "crankpin") -> tupl
     count = f"{rods} " if rods > 1 else ""
     pole = translate("drawing.pole_rods" if rods > 1 else "drawing.pole", engine.language)
     rows = [Row(f"O – {pole}", CIRCLE),
-            Row(f"{count}{engine.stated('big_end_inertia_force', -inertia)}", ARROW, 1.8)]  # fmt: skip
+            Row(f"{count}{engine.stated('big_end_inertia_force', -inertia)}", ARROW)]  # fmt: skip
     titles = (
         f"{engine.symbol('tangential_force')}, {engine.unit('tangential_force')}",
         f"{engine.symbol('radial_force')}, {engine.unit('radial_force')}",
@@ -148,7 +150,7 @@ def _polar(
     graph.curves["pole"] = np.array([pole[0]]), sign * np.array([pole[1]])
     pole_on_paper = graph.point(pole[0], sign * pole[1])
     if pole[1]:
-        paper.arrow(pole_on_paper, origin, width=1.8)
+        paper.arrow(pole_on_paper, origin, width=0.9)
     marked = engine.shown(key, diagram.marks_across), sign * engine.shown(key, diagram.marks_down)
     kept = _spaced_marks(graph, diagram.marks, marked)
     marks, marked = diagram.marks[kept], (marked[0][kept], marked[1][kept])
@@ -163,7 +165,7 @@ def _polar(
     graph.x_title(titles[0])
     graph.y_title(titles[1], 48.0)
     label_marks(paper, names, frame=graph.box)
-    paper.dot(*pole_on_paper, 2.6, fill="#ffffff", width=1.0)
+    paper.dot(*pole_on_paper, 2.6, fill="#ffffff", width=0.9)
     return paper, {key: graph}
 
 
@@ -188,7 +190,7 @@ def _spaced_marks(graph: Graph, angles: Array, places: tuple[Array, Array]) -> l
 def _rays(graph: Graph, pole: tuple[float, float], ends: Sequence[Array]) -> None:
     """Draw a ray from the pole to every mark."""
     x, y = graph.across(ends[0]), graph.down(ends[1])
-    graph.paper.segments(np.column_stack([np.full_like(x, pole[0]), np.full_like(y, pole[1]), x, y]), width=0.4,
+    graph.paper.segments(np.column_stack([np.full_like(x, pole[0]), np.full_like(y, pole[1]), x, y]), width=0.45,
                          colour=_RAY)  # fmt: skip
 
 
@@ -226,7 +228,7 @@ def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     style = (10.0, 3.0) if len(sizes) > 1 else DASHED
     which = engine.row_text("crankpin", first) if len(sizes) > 1 else ""
     mean = engine.stated("mean_crankpin_load", extremes.mean)
-    rows.append(Row(f"{mean}{', ' if which else ''}{which}", style, 0.8))
+    rows.append(Row(f"{mean}{', ' if which else ''}{which}", style, _MEAN))
     base = engine.symbol("crankpin_load")[:-1]
     ends = (
         f"{base}{',' if '_' in base else '_'}{name}$ = {engine.value('crankpin_load', value)} "
@@ -253,19 +255,25 @@ def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def main_journal_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the loads of all main journals in the frame of the shaft, side by side on equal scales."""
     diagrams = engine.bearings.journals
-    most = max(float(np.hypot(diagram.across, diagram.down).max()) for diagram in diagrams.values())
-    reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
+    # common axes around the pole and all loads
+    loads = [np.array([[0.0, *diagram.across], [0.0, *-diagram.down]]) for diagram in diagrams.values()]
+    across, up = engine.shown("main_journal_load", np.hstack(loads))
+    half = 0.59 * max(float(np.ptp(across)), float(np.ptp(up))) or 1.0
+    middles = [float(np.min(values) + np.max(values)) / 2 for values in (across, up)]
+    x, y = ((middle - half, middle + half) for middle in middles)
     columns = columns_of(min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3))
     lines = -(-len(diagrams) // columns)
     side, gap = (current_layout().width - _LEFT_MARGIN - current_layout().right + 22) / columns - 22, (22.0, 26.0)
+    side = min(side, scaled_height(_SIDE))
+    left = max(_LEFT_MARGIN, (current_layout().width - columns * (side + gap[0])) / 2)
     paper = Canvas(current_layout().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
     for index, (name, diagram) in enumerate(diagrams.items()):
         column, line = index % columns, index // columns
-        box = ChartBox(_LEFT_MARGIN + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
+        box = ChartBox(left + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
         has_below = index + columns >= len(diagrams)
         small_text(paper, box.left + side / 2, box.top - 5, engine.row_text("main_journal", name))
-        graphs[name] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
+        graphs[name] = _small_polar(engine, paper, box, diagram, (x, y), labels=(has_below, column == 0))
         title = f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}"
         if has_below:
             graphs[name].x_title(title)
@@ -279,19 +287,19 @@ def _small_polar(
     paper: Canvas,
     box: ChartBox,
     diagram: PolarDiagram,
-    reach: float,
+    axes: tuple[tuple[float, float], tuple[float, float]],
     *,
     labels: tuple[bool, bool],
 ) -> Graph:
     """Draw one of several polar diagrams, crank 1 upward, marked every 90 degrees."""
-    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
-    box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.width / 32))))
-    graph.frame(ticks, ticks, labels=labels)
+    graph = Graph(paper, box, axes[0], axes[1], engine.language)
+    box, most = graph.box, min(5, max(1, round(graph.box.width / 32)))
+    graph.frame(round_ticks(*graph.x, most), round_ticks(*graph.y, most), labels=labels)
     middle = graph.point(0.0, 0.0)
     paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.45)
     across, up = engine.shown("main_journal_load", diagram.across), -engine.shown("main_journal_load", diagram.down)
     across, up = np.append(across, across[0]), np.append(up, up[0])
-    graph.curve("load", across, up, width=1.0, angles=np.append(diagram.degrees, engine.cycle))
+    graph.curve("load", across, up, width=0.9, angles=np.append(diagram.degrees, engine.cycle))
     marked = (
         engine.shown("main_journal_load", diagram.marks_across),
         -engine.shown("main_journal_load", diagram.marks_down),
@@ -369,13 +377,13 @@ def _ring(engine: Drawn, paper: Canvas, box: ChartBox, angles: Array, ring: Wear
     worn = 1 - np.interp(fine, angles, depth, period=360)
     direction = _towards(fine)
     _hatch(graph, fine, worn)
-    graph.curve("journal", *direction, width=1.4)
-    graph.curve("worn", *(direction * worn), width=1.0)
+    graph.curve("journal", *direction, width=0.45)
+    graph.curve("worn", *(direction * worn), width=0.9)
     rays = _towards(angles)
     inner = rays * (1 - depth)
     x, y = graph.across(inner[0]), graph.down(inner[1])
     outer = rays * (1 + 5 / (box.width / 2 - _ROOM))
-    graph.paper.segments(np.column_stack([x, y, graph.across(outer[0]), graph.down(outer[1])]), width=0.6)
+    graph.paper.segments(np.column_stack([x, y, graph.across(outer[0]), graph.down(outer[1])]), width=0.45)
     graph.curves["ends"] = inner[0], inner[1]
     step = 1 if len(angles) <= 12 or box.width > 200 else 2
     for ray in range(0, len(angles), step):
@@ -383,7 +391,7 @@ def _ring(engine: Drawn, paper: Canvas, box: ChartBox, angles: Array, ring: Wear
         small_text(paper, float(graph.across(place[0])), float(graph.down(place[1])) + 2.7, str(ray + 1))
     cross = np.array([[-0.12, 0, 0.12, 0], [0, -0.12, 0, 0.12]])
     centre = [graph.across(cross[:, 0]), graph.down(cross[:, 1]), graph.across(cross[:, 2]), graph.down(cross[:, 3])]
-    paper.segments(np.column_stack(centre), width=0.6)
+    paper.segments(np.column_stack(centre), width=0.45)
     _hole(graph, ring)
     return graph
 
@@ -399,7 +407,7 @@ def _hole(graph: Graph, ring: WearRing) -> None:
     for wall in walls:
         graph.paper.line(graph.across(wall[0]), graph.down(wall[1]), width=0.9)
     end = axis * 0.98
-    graph.curve("oil_hole", [0.0, end[0]], [0.0, end[1]], DASH_DOT, width=0.6)
+    graph.curve("oil_hole", [0.0, end[0]], [0.0, end[1]], DASH_DOT, width=0.45)
 
 
 def _hatch(graph: Graph, angles: Array, worn: Array) -> None:
@@ -416,7 +424,7 @@ def _hatch(graph: Graph, angles: Array, worn: Array) -> None:
     _, end = np.nonzero(inside[:, :-1] & ~inside[:, 1:])
     x0, y0 = float(graph.across(0.0)), float(graph.down(0.0))
     ends = np.column_stack([x0 + x[row, start], y0 - y[row, start], x0 + x[row, end - 1], y0 - y[row, end - 1]])
-    graph.paper.segments(ends, width=0.4, colour=GREY)
+    graph.paper.segments(ends, width=0.45, colour=GREY)
 
 
 def _towards(angles: Array) -> Array:

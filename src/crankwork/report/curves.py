@@ -13,9 +13,19 @@ from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.quantities.key import key_of
+from crankwork.quantities.quantity import number_of
 from crankwork.report.comparison import shown_names
 from crankwork.report.display import displayed, in_own_units, key_unit, symbol
-from crankwork.report.look import PLAIN, Style, axis_title, displayed_values, drive_graph, math_symbol, quantity_of
+from crankwork.report.look import (
+    PLAIN,
+    Style,
+    axis_title,
+    displayed_values,
+    drive_graph,
+    key_of_links,
+    math_symbol,
+    quantity_of,
+)
 from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import (
     BOTTOM,
@@ -97,11 +107,14 @@ def curves(
         graph.y_title(_title(quantities, style))
         top += graph.box.height + _GAP
     dead = "; ".join(f"{number(round(limit, 2), style.language)}°" for limit in style.limits)
+    owners = {key_of(row.key).owner for panel in all_panels for row in panel}
+    known = {number: name for number, name in enumerate(style.links, start=1) if number_of(name) != name}
     zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
     remarks = [
         translate("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
         remark,
+        *key_of_links(known, (number for number, name in known.items() if name in owners), style.language),
     ]
     write_remark(paper, "; ".join(text for text in remarks if text))
     return paper.drawing(title, style.language)

@@ -69,8 +69,6 @@ def in_own_units(function: Callable[Concatenate[Results, P], R]) -> Callable[Con
 
 # what takes the place of a unit of which results have as many as that
 _LARGER = {"N": ("kN", 1e4), "N*m": ("kN*m", 1e5), "J": ("kJ", 1e5), "W": ("kW", 1e5)}
-# what is told in larger units where it stands by itself [N, N m]
-_LONG = 5e3
 # sums of forces, that nobody compares with forces
 _SUMS = ("crankpin_wear", "main_wear")
 
@@ -86,12 +84,6 @@ def reader_units(results: Results) -> DisplayUnits:
             largest[unit] = max(largest[unit], float(np.max(np.abs(known), initial=0.0)))
     shown = tuple((unit, larger) for unit, (larger, many) in _LARGER.items() if largest[unit] >= many)
     return DisplayUnits(results.machine.units, shown)
-
-
-def units_of(results: Results, key: str, largest: float) -> DisplayUnits:
-    """Return the units of a drawing of one quantity by its largest value: neither 0.0015 kN nor 30000 N m. [SI]"""
-    metric = QUANTITIES[key].metric
-    return DisplayUnits(results.machine.units, ((metric, _LARGER[metric][0]),) if largest >= _LONG else ())
 
 
 def for_readers(function: Callable[Concatenate[Results, P], R]) -> Callable[Concatenate[Results, P], R]:

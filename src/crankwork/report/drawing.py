@@ -26,15 +26,16 @@ from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, for_readers, key_unit, label, link_label, symbol
 from crankwork.report.drawn_cylinders import engine_sketch
 from crankwork.report.drawn_links import linkage_sketch
-from crankwork.report.look import scale_text
-from crankwork.report.sketch import Sketch
+from crankwork.report.sketch import Sketch, tints
 from crankwork.show.animation import Animation, Part, part
 from crankwork.show.canvas import WIDER, marked
 from crankwork.show.formats import FILMS, FORMATS, Progress
-from crankwork.show.scene import SMALL, TEXT, ChartBox, Drawing, Item, Text, flow_rows, line, text_width
+from crankwork.show.scene import SMALL, TEXT, ChartBox, Drawing, Item, Pen, Text, flow_rows, line, rectangle, text_width
 from crankwork.show.theme import Theme
 
 _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 8.0, 4.5, 80.0
+# tints of the key to the pressure, and how wide each is [mm]
+_TINTS, _TINT = 6, 4.0
 # about a view that is looked at alone [mm]
 _AROUND = 4.0
 # a still shows the crank at this angle
@@ -75,6 +76,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
         sketch = engine_sketch(known, engine, labels if forces else None, still)
         keys = [f"{labels[key]} – {label(key, language)}" for key in engine.cylinders[0].forces]
         about = [*_lengths(path.mechanism, known, language), time]
+        pressures = [cylinder.pressure for cylinder in engine.cylinders if cylinder.pressure is not None]
     else:
         shape = skeleton(path.mechanism, _links(known))
         columns = _columns(results, path.degrees, forces=forces) if results is not None else {}
@@ -83,7 +85,9 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
         )
         keys = _acting(path.mechanism, shape, _named_forces(columns, language), language)
         about = [*_lengths(path.mechanism, None, language), *_members(shape, language), time]
-    return _film(sketch, path, seconds, known, "; ".join(about), keys, language)
+        tinted = [item.name.removeprefix("gas.") for item in sketch.parts if item.name.startswith("gas.")]
+        pressures = [columns[f"gas_pressure.{name}"] for name in tinted if f"gas_pressure.{name}" in columns]
+    return _film(sketch, path, seconds, known, "; ".join(about), keys, pressures, language)
 
 
 def film_of(results: Results, *, language: Language = "en", frames: int = 0, forces: bool = False) -> Animation | None:
@@ -180,19 +184,24 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     machine: Machine | None,
     about: str,
     keys: Sequence[str],
+    pressures: Sequence[Array],
     language: Language,
 ) -> Animation:
-    """Return a sketch on its paper, with a scale and the crank angle beneath it; `keys`: legend of its forces."""
+    """Return a sketch on its paper, with a scale and the crank angle beneath it.
+
+    `keys`: legend of its forces; `pressures`: of the gas that is tinted. [Pa]
+    """
     (wide, tall), middle = sketch.high - sketch.low, (sketch.low + sketch.high) / 2
     width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(path, language)
-    bar, below, foot = _scale_bar(sketch.scale, 0.3 * width, language), list[Part](), _FOOT
+    bar, below, foot = _scale_bar(sketch.scale / 1e3, 0.3 * width, _MARGIN, "mm", language), list[Part](), _FOOT
+    if pressures:
+        bar = [*_pressure_key(pressures, foot + _MARGIN + _ROW - _FOOT, language), *bar]
+        foot += _ROW
     if sketch.force_scale:
-        text = marked(scale_text("μ_F", sketch.force_scale, key_unit("piston_force"), language))
-        # in a row of its own where it would stand on the length of the bar or on the crank angle
-        taken = text_width(text) + 2 * max(0.3 * width, *map(text_width, readouts)) + 2 * _MARGIN
-        row = _ROW if taken > width - 2 * _MARGIN else 0.0
-        foot += row
-        texts = [Text((width / 2, _MARGIN + row), text, TEXT, "middle")]
+        texts = _scale_bar(
+            1 / sketch.force_scale, 0.3 * width, foot + _MARGIN + _ROW - _FOOT, key_unit("piston_force"), language
+        )
+        foot += _ROW
         rows = flow_rows(keys, "; ", (width - 2 * _MARGIN) / WIDER, partial(text_width, height=SMALL))
         texts += [Text((_MARGIN, foot + 1.5 + _KEY * k), row_text, SMALL) for k, row_text in enumerate(reversed(rows))]
         foot += _KEY * len(rows) + 1.5
@@ -260,16 +269,31 @@ def _choices(sketch: Sketch, language: Language) -> dict[str, str]:
     return choices or ({"force.": label("joint_force", language)} if names else {})
 
 
-def _scale_bar(scale: float, longest: float, language: Language) -> list[Item]:
-    """Return a bar of a round length with the length on it; `scale` in millimetres of the paper per metre."""
-    millimetres = longest / scale * 1e3
-    power = 10.0 ** math.floor(math.log10(millimetres))
-    length = max(digit * power for digit in (1, 2, 5) if digit * power <= millimetres)
-    end = _MARGIN + length / 1e3 * scale
-    text = f"{number(length, language)} {unit_name('mm', language)}"
-    ticks = [line((x, _MARGIN - 1.2), (x, _MARGIN + 1.2), "medium") for x in (_MARGIN, end)]
-    bar = line((_MARGIN, _MARGIN), (end, _MARGIN), "medium")
-    return [bar, *ticks, Text(((_MARGIN + end) / 2, _MARGIN + 1.8), text, TEXT, "middle")]
+def _scale_bar(scale: float, longest: float, level: float, unit: str, language: Language) -> list[Item]:
+    """Return a bar of a round size with the size on it; `scale`: millimetres of the paper per unit."""
+    power = 10.0 ** math.floor(math.log10(longest / scale))
+    size = max(digit * power for digit in (1, 2, 5) if digit * power <= longest / scale)
+    end = _MARGIN + size * scale
+    text = f"{number(float(f'{size:.6g}'), language)} {unit_name(unit, language)}"
+    ticks = [line((x, level - 1.2), (x, level + 1.2), "medium") for x in (_MARGIN, end)]
+    bar = line((_MARGIN, level), (end, level), "medium")
+    return [bar, *ticks, Text(((_MARGIN + end) / 2, level + 1.8), text, TEXT, "middle")]
+
+
+def _pressure_key(pressures: Sequence[Array], level: float, language: Language) -> list[Item]:
+    """Return the tints of gas from its least to its greatest pressure. [Pa]"""
+    values = np.array([min(map(np.min, pressures)), max(map(np.max, pressures))])
+    shades = tints([values[0] + np.linspace(0.0, 1.0, _TINTS) ** 2 * np.ptp(values)])[0]
+    steps = [rectangle(ChartBox(_MARGIN + _TINT * k, level - 1.2, _TINT, 3.5), fill=1.0 - float(shade))
+             for k, shade in enumerate(shades)]  # fmt: skip
+    low, high = (number(float(f"{displayed('gas_pressure', value):.3g}"), language) for value in values)
+    text = marked(
+        f"${symbol('gas_pressure', language)}$ = {low} … {high} {unit_name(key_unit('gas_pressure'), language)}"
+    )
+    return [
+        *(step._replace(kind=Pen(0.0), name="gas") for step in steps),
+        Text((_MARGIN + _TINT * _TINTS + 2, level - 1), text),
+    ]
 
 
 def period_of(mechanism: Mechanism) -> float:

@@ -15,7 +15,19 @@ from crankwork.machine import Bearings, Machine
 from crankwork.report.drawn_links import hatched
 from crankwork.report.sketch import Sketch, forces_of, tints, with_forces
 from crankwork.show.animation import Part, part
-from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, line, rectangle, text_width, use_layout
+from crankwork.show.scene import (
+    ChartBox,
+    Circle,
+    Item,
+    Pen,
+    Polyline,
+    Text,
+    line,
+    rectangle,
+    rotation_arrow,
+    text_width,
+    use_layout,
+)
 
 _TALL, _WIDE, _WIDE_ALONE, _GAP = 125.0, 250.0, 130.0, 14.0
 _NONE, _PALE = Pen(0.0), Pen(0.15, grey=0.55)
@@ -154,6 +166,8 @@ class _Engine:
         r = self._size.crank
         items: list[Item] = [Circle((0.0, 0.0), r, Pen(0.2, (6.0, 1.5, 1.0, 1.5), 0.4))]
         items.append(line((-r - 4, 0.0), (r + 4, 0.0), "axis"))
+        # clockwise, below the shaft where no cylinder is
+        items += rotation_arrow((0.0, 0.0), max(r, self._size.counterweight) + 4, -1.0, 300.0)
         for cylinder in fronts:
             foot = _across(cylinder, cylinder.offset)
             items.append(

@@ -18,7 +18,7 @@ from crankwork.mechanism.driver import rod_name
 from crankwork.mechanism.linkage import GROUND
 from crankwork.report.sketch import Sketch, forces_in_joints, tints, with_forces
 from crankwork.show.animation import Part, part
-from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, line, literal, rectangle
+from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, line, literal, rectangle, rotation_arrow
 
 BLOCK = (14.0, 8.0)
 RAM = (22.0, 13.0)
@@ -32,7 +32,7 @@ UNIT, HATCH = 0.3, 8.0
 _SIZE = 420.0
 _GROUND_REACH = ((-34.0, 0.0), (38.0, -36.0))
 _LINK, _DRIVER, _BARREL = Pen(0.9), Pen(1.5), Pen(2.7)
-_LETTERS = 3.2
+_LETTERS, _ROTATION = 3.2, 4.5
 _TURNS = np.radians([45, 135, 315, 225, 90, 0, 180, 270, 20, 70, 110, 160, 200, 250, 290, 340])
 _AROUND = np.column_stack([np.cos(_TURNS), np.sin(_TURNS)])
 _REACHES = (15.0, 19.0, 24.0, 30.0)
@@ -305,6 +305,10 @@ def linkage_sketch(
     places = np.vstack([places, *(wall.points for wall in walls)])
     parts = [*filled, *_parts(drawn), *written]
     low, high = places.min(axis=0), places.max(axis=0)
+    if shape.pin:
+        pivot_of_crank = drawn.points[next(iter(shape.pivots))][0]
+        (x, y), (u, v) = drawn.points[shape.pin][:2] - pivot_of_crank
+        items += rotation_arrow(pivot_of_crank * UNIT, _ROTATION, x * v - y * u)
     sketch = Sketch([*items, *walls, *ground(drawn)], parts, low, high, scale * UNIT)
     points = {name: point * UNIT for name, point in drawn.points.items()}
     return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}), frame)

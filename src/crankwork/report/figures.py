@@ -16,7 +16,8 @@ from crankwork.analysis.vector_polygons import driver_rates, position_step
 from crankwork.locale import translate
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
-from crankwork.report.balance import balance_ellipses, balance_orders
+from crankwork.quantities.quantity import use_numbers
+from crankwork.report.balance import balance_ellipses, balance_orders, curved_loci
 from crankwork.report.bearings import (
     big_end_polar,
     crankpin_load,
@@ -28,7 +29,7 @@ from crankwork.report.bearings import (
     small_end_polar,
 )
 from crankwork.report.curves import comparison_figure, curves, drawn_keys
-from crankwork.report.display import for_readers, symbol
+from crankwork.report.display import for_readers, link_numbers, symbol
 from crankwork.report.flywheel import (
     crank_speed,
     excess_work,
@@ -48,6 +49,7 @@ from crankwork.report.positions import position_plans
 from crankwork.report.tables import any_nonzero
 from crankwork.report.torque import (
     accumulated_torque,
+    cylinder_torques,
     has_turning_moment,
     loops,
     torque,
@@ -382,13 +384,14 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("main_wear", main_wear, _listed("main_wear"), is_of_forces=True),
     Diagram("total_tangential_force", total_tangential_force, _many, is_of_forces=True),
     Diagram("total_torque", total_torque, _many),
+    Diagram("cylinder_torques", cylinder_torques, _many),
     Diagram("accumulated_torque", accumulated_torque, every(_engine, lambda machine: machine.diagrams.has_throws)),
     Diagram("excess_work", excess_work, _engine),
     Diagram("crank_speed", crank_speed, every(_engine, lambda machine: machine.diagrams.torque.speed is not None)),
     Diagram("torque_harmonics", torque_harmonics, _listed("torque_harmonics")),
     Diagram("phase_stars", phase_stars, _many),
     Diagram("balance_orders", balance_orders, every(_engine, lambda machine: "inertia_force" in machine.columns)),
-    Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(machine.diagrams.loci))),
+    Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(curved_loci(machine)))),
     Construction("transient", _transient, every(_drawn, has("transient"))),
     Construction("speed", speed_curve, _speed),
     Construction("wittenbauer", wittenbauer, every(_drawn, has_energy_mass_diagram)),
@@ -426,7 +429,9 @@ def drawings(
 ) -> dict[str, Drawing]:
     """Return the figures of a machine as drawings; `only`: the names of those that are wanted."""
     machine = drawn_of(results, language, per_area=per_area)
-    return {name: figure.picture(machine) for name, figure in diagrams(machine).items() if only is None or name in only}
+    with use_numbers(link_numbers(results)):
+        chosen = ((name, figure) for name, figure in diagrams(machine).items() if only is None or name in only)
+        return {name: figure.picture(machine) for name, figure in chosen}
 
 
 @for_readers

@@ -85,7 +85,7 @@ def _hatch(graph: Graph, degrees: Array, values: Array) -> None:
     over = np.interp(angles, degrees, values)
     x, y, zero = graph.across(angles), graph.down(over), float(graph.down(0.0))
     kept = over > 0
-    graph.paper.segments(np.column_stack([x, np.full_like(x, zero), x, y])[kept], width=0.5, colour=GREY)
+    graph.paper.segments(np.column_stack([x, np.full_like(x, zero), x, y])[kept], width=0.45, colour=GREY)
 
 
 def _span(graph: Graph, angle: float, ends: list[float], text: str) -> None:

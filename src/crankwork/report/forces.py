@@ -39,7 +39,7 @@ _HIGHEST, _WHOLE = 230.0, 560.0
 _TWO = 560.0
 # how far apart forces are drawn that coincide, and what does: nothing else is set aside, so that plans close [pt]
 _LANE, _NEAR, _LANES = 6.0, 0.8, (0, 1, -1, 2, -2, 3, -3)
-_LOAD, _REACTION = 0.9, 1.6
+_LOAD, _REACTION = 0.45, 0.9
 # a group of fewer forces has no plan, only two that are equal
 _FEWEST, _MOST = 3, 4
 
@@ -178,7 +178,7 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
         start, end = sides[index]
         for corner, moved in zip(corners[index : index + 2], sides[index], strict=True):
             if np.any(corner != moved):
-                paper.line([corner[0], moved[0]], [corner[1], moved[1]], width=0.4, colour=GREY)
+                paper.line([corner[0], moved[0]], [corner[1], moved[1]], width=0.45, colour=GREY)
         paper.arrow(start, end, width=_REACTION if force.kind != "load" else _LOAD, style=SOLID)
         marks.append((force_symbol(force, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
     label_marks(paper, marks, dot=0.0)

@@ -127,7 +127,7 @@ def strokes(engine: Drawn, graph: Graph) -> None:
     if not names or WIDER * max(text_width(name, 7.5) for name in names) > ends[1] - ends[0]:
         return
     lines = [(end, top - _BAND, end, top) for end in ends]
-    graph.paper.segments(np.array([*lines, (ends[0], top - _BAND, ends[-1], top - _BAND)]), width=0.4)
+    graph.paper.segments(np.array([*lines, (ends[0], top - _BAND, ends[-1], top - _BAND)]), width=0.45)
     for name, (left, right) in zip(names, pairwise(ends), strict=True):
         small_text(graph.paper, float(left + right) / 2, top - 3.5, name)
 
@@ -225,15 +225,15 @@ def _dead_centres(engine: Drawn, graph: Graph) -> None:
     for name, volume in zip(("tdc", "bdc"), volumes, strict=True):
         x = float(graph.across(volume))
         down = np.array([box.top - 6, box.top + box.height])
-        paper.line([x, x], down, style=DASH_DOT, width=0.6)
+        paper.line([x, x], down, style=DASH_DOT, width=0.45)
         small_text(paper, x, box.top - 17, translate(f"drawing.{name}", engine.language))
     level = box.top - 4
     spans = (("clearance_volume", 0.0, volumes[0]), ("swept_volume", volumes[0], volumes[1]))
     for key, start, end in spans:
         left, right = float(graph.across(start)), float(graph.across(end))
         middle = (left + right) / 2
-        paper.arrow((middle, level), (left, level), width=0.5)
-        paper.arrow((middle, level), (right, level), width=0.5)
+        paper.arrow((middle, level), (left, level), width=0.45)
+        paper.arrow((middle, level), (right, level), width=0.45)
         paper.text(middle, level - 3, engine.symbol(key), size=8, anchor="middle")
 
 

@@ -14,6 +14,9 @@ from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, small_text
 from crankwork.show.chart_layout import columns_of, current_layout, scaled_height
 from crankwork.show.label_placement import label_marks
 
+# side of a phase star at most [pt]
+_SIDE = 150.0
+
 
 def torque_harmonics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the amplitudes of the harmonics of the torque as bars over the orders, of one cylinder and of all."""
@@ -51,11 +54,12 @@ def phase_stars(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     stars = engine.diagrams.phase_stars
     columns = columns_of(4 if len(stars) > 6 else 3)
     lines = -(-len(stars) // columns)
-    side, gap, head = (current_layout().width - 24) / columns - 8, 8.0, 14.0
+    side, gap, head = min((current_layout().width - 24) / columns - 8, scaled_height(_SIDE)), 8.0, 14.0
+    left = (current_layout().width - columns * (side + gap) + gap) / 2
     paper = Canvas(current_layout().width, TOP + lines * (side + head) + 30)
     graphs: dict[str, Graph] = {}
     for k, star in enumerate(stars):
-        box = ChartBox(12 + (k % columns) * (side + gap), TOP + head + (k // columns) * (side + head), side, side)
+        box = ChartBox(left + (k % columns) * (side + gap), TOP + head + (k // columns) * (side + head), side, side)
         order = engine.number(star.order)
         graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
         text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
@@ -78,13 +82,15 @@ def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: compl
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
     middle = graph.point(0.0, 0.0)
     if abs(total) > 1e-9:
-        end = graph.point(total.imag, total.real)
-        paper.arrow(middle, end, width=5.0, colour="#a8a8a8")
+        # a band, on which the unit vectors are seen
+        band = 2.5 * np.array([total.real, total.imag]) / abs(total)
+        ends_of_band = np.array([middle, graph.point(total.imag, total.real)]).repeat(2, axis=0)
+        paper.area(*(ends_of_band + np.outer([1, -1, -1, 1], band)).T, fill="#c8c8c8")
     graph.curves["mean"] = np.array([total.imag]), np.array([total.real])
     ends = []
     for (up, across), numbers in directions.items():
         end = graph.point(across, up)
-        paper.arrow(middle, end, width=0.8)
+        paper.arrow(middle, end, width=0.45)
         ends.append((",".join(str(number) for number in numbers), *end))
     paper.dot(*middle, 1.6)
     label_marks(paper, ends, size=7.0, dot=0.0)

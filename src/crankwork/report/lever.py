@@ -27,7 +27,6 @@ _TALL, _MARGIN, _ROW, _FOOT = 400.0, 30.0, 14.0, 14.0
 # length of the arrow of a force, which is not to scale
 _FORCE, _PRIME = 40.0, "′"
 # width of the lines of the plan, of those in a plan without forces
-_THIN = 0.5
 # height of the plan at least
 _LOWEST = 60.0
 _BLANK, _BETWEEN = "\u00a0", 14.0
@@ -72,7 +71,7 @@ def lever_figure(machine: Drawn) -> Drawing:
     x, y = ((left + right - wide) / 2, (left + right + wide) / 2), (low, low + high / unit)
     graph = Graph(paper, ChartBox(0.0, 0.0, current_layout().width, high), x, y, language, to_scale=False)
     _arms(graph, forces)
-    draw_vectors(graph, lever.plan.vectors, unit, _THIN)
+    draw_vectors(graph, lever.plan.vectors, unit, 0.45)
     _forces(graph, forces, unit)
     _names(graph, lever, forces, unit)
     paper.text(14, high + 4, scale_text("μ_v", scale, "m/s", language))
@@ -112,14 +111,14 @@ def _arms(graph: Graph, forces: Sequence[_Named]) -> None:
         end, foot = force.force.end, force.force.foot
         for line, style in (((end, foot), DASH_DOT), (((0.0, 0.0), foot), DASHED)):
             (a, b), (p, q) = (graph.point(*place) for place in line)
-            graph.paper.line([a, p], [b, q], style=style, width=0.5, colour=GREY)
+            graph.paper.line([a, p], [b, q], style=style, width=0.45, colour=GREY)
 
 
 def _forces(graph: Graph, forces: Sequence[_Named], unit: float) -> None:
     for force in forces:
         if force.force.size:
             start, end = (graph.point(*place) for place in _arrow(force.force, unit))
-            graph.paper.arrow(start, end, width=1.6)
+            graph.paper.arrow(start, end, width=0.9)
 
 
 def _arrow(force: LeverForce, unit: float) -> tuple[Array, Array]:

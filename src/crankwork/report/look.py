@@ -27,16 +27,16 @@ from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, link_label, row_name, symbol
 from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, round_ticks, write_remark
-from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale
-from crankwork.show.scene import DASH_DOT, Drawing, printable
+from crankwork.show.chart_layout import MM, current_layout, points_per_mm, round_scale
+from crankwork.show.scene import DASH_DOT, Drawing, Pen, printable, rotation_arrow
 from crankwork.units import from_si
 
 _DENSE_STEP = 2.0
 # behind a corner, where there may be a jump [deg]
 _AFTER = 1e-6
 _DIGITS = 4
-# length of a scale bar at least [mm]
-_BAR = 10.0
+# length of a scale bar at least, radius of an arrow of rotation [mm]
+_BAR, _ROTATION = 10.0, 5.0
 # what would mark something in a text of a figure, where a name is the user's own
 _SIGNS = frozenset(r"$\#{}%^~&")
 
@@ -190,6 +190,13 @@ def draw_scale(
         np.array([(x, y, x + length, y), (x, y - 2.5, x, y + 2.5), (x + length, y - 2.5, x + length, y + 2.5)])
     )
     paper.text(x + length + 5, y + 3, f"{number(shown, language)} {unit_name(unit, language)}")
+
+
+def draw_rotation(graph: Graph, pivot: Array, arms: Array) -> None:
+    """Draw an arrow above the pivot of a crank; `arms`: the crank at two angles, one after the other, shape (2, 2)."""
+    x, y = graph.point(*pivot)
+    sense = arms[0, 0] * arms[1, 1] - arms[0, 1] * arms[1, 0]
+    graph.paper.items += rotation_arrow((x * MM, -y * MM), _ROTATION, sense, kind=Pen(0.45 * MM))
 
 
 class Reached(NamedTuple):

@@ -11,15 +11,16 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.constructions import BrixPoints, brix_points, tangent_ends, tolle_parabola, tolle_points
 from crankwork.analysis.sampled_motion import Frame, SampledMotion, sample_motion
-from crankwork.analysis.skeleton import Member, skeleton
+from crankwork.analysis.skeleton import Skeleton, skeleton
 from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import QUANTITIES
 from crankwork.quantities.key import key_of
+from crankwork.quantities.quantity import number_of
 from crankwork.report.display import symbol
 from crankwork.report.forces import Line
 from crankwork.report.gas import diagram, gas_exchange, mark_points, named_points
-from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text, scale_text
+from crankwork.report.look import Drawn, Style, displayed_values, draw_rotation, figure_title, position_text, scale_text
 from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
 from crankwork.show.chart import (
     BOTTOM,
@@ -135,12 +136,12 @@ def _rays(engine: Drawn, ring: Graph, points: BrixPoints, radius: float, marks: 
     ring.curve("circle", radius * np.sin(around), radius * np.cos(around))
     axis = -points.pole / np.hypot(*points.pole) * radius * 1.08
     for x, y in (axis, (axis[1], -axis[0])):
-        ring.paper.line(ring.across(np.array([-x, x])), ring.down(np.array([-y, y])), style=DASH_DOT, width=0.6)
+        ring.paper.line(ring.across(np.array([-x, x])), ring.down(np.array([-y, y])), style=DASH_DOT, width=0.45)
     pole = radius * points.pole
     x, y = ring.across(radius * points.across), ring.down(radius * points.up)
     start = ring.point(float(pole[0]), float(pole[1]))
     centre = ring.point(0.0, 0.0)
-    ring.paper.segments(np.column_stack([np.full_like(x, start[0]), np.full_like(y, start[1]), x, y]), width=0.6)
+    ring.paper.segments(np.column_stack([np.full_like(x, start[0]), np.full_like(y, start[1]), x, y]), width=0.45)
     ring.curves["points"] = radius * points.across, radius * points.up
     for mark, a, b in zip(marks, x, y, strict=True):
         ring.paper.dot(float(a), float(b), 1.4)
@@ -158,7 +159,7 @@ def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, m
         if mark <= 180:
             x, y = ring.point(radius * float(across), radius * float(up))
             end = float(graph.across(mark))
-            graph.paper.segments(np.array([[x, y, end, y]]), width=0.5, colour=GREY)
+            graph.paper.segments(np.array([[x, y, end, y]]), width=0.45, colour=GREY)
             graph.paper.dot(end, y, 1.4)
 
 
@@ -232,10 +233,10 @@ def _half_circle(machine: Drawn, graph: Graph) -> list[tuple[str, float, float]]
     x, y = centre - radius * points.up, level + radius * points.across
     around = np.radians(np.arange(0.0, 181.0, 3.0))
     paper.line(centre - radius * np.cos(around), level + radius * np.sin(around), width=0.9, name="circle")
-    paper.segments(np.array([(first, level, last, level)]), width=0.5)
-    paper.segments(np.column_stack([np.full_like(x, pole[0]), np.full_like(y, pole[1]), x, y]), width=0.5)
+    paper.segments(np.array([(first, level, last, level)]), width=0.45)
+    paper.segments(np.column_stack([np.full_like(x, pole[0]), np.full_like(y, pole[1]), x, y]), width=0.45)
     foot = np.full_like(x, graph.box.top + graph.box.height)
-    paper.segments(np.column_stack([x, y, x, foot]), width=0.4, colour=GREY)
+    paper.segments(np.column_stack([x, y, x, foot]), width=0.45, colour=GREY)
     marks = [(machine.number(_STEP * k), *place) for k, place in enumerate(zip(x.tolist(), y.tolist(), strict=True))]
     captions = [
         f"OO′ = {machine.symbol('rod_ratio')}{machine.symbol('crank_radius')}/2",
@@ -264,11 +265,11 @@ def tolle(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     parabola = radius * along, unit * up
     rows = [
         Row(engine.title("piston_acceleration").rpartition(",")[0]),
-        Row(translate("drawing.tangents", engine.language), width=0.5),
+        Row(translate("drawing.tangents", engine.language), width=0.45),
     ]
     differs = float(np.max(np.abs(np.interp(x, *parabola) - y))) > 2e-3 * unit
     if differs:
-        rows.insert(1, Row(translate("drawing.parabola", engine.language), DOTTED, 1.0))
+        rows.insert(1, Row(translate("drawing.parabola", engine.language), DOTTED))
     paper, box = sheet(270.0, rows)
     low, high = limits(np.array([corner[1] for corner in corners.values()]), y, margin=0.09)
     room = 0.04 * 2 * radius
@@ -277,14 +278,14 @@ def tolle(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     tangents = tangent_ends(corners["C"], corners["F"], corners["D"])
     ends = np.column_stack([graph.across(tangents[:, 0]), graph.down(tangents[:, 1]),
                             graph.across(tangents[:, 2]), graph.down(tangents[:, 3])])  # fmt: skip
-    paper.segments(ends, width=0.5)
+    paper.segments(ends, width=0.45)
     graph.curves["tangents"] = tangents[:, [0, 2]], tangents[:, [1, 3]]
     for first, second in map(tuple, _SIDES):
         pair = np.array([corners[first], corners[second]])
-        graph.curve(first + second, pair[:, 0], pair[:, 1], DASHED if first + second == "CD" else SOLID, width=0.7)
+        graph.curve(first + second, pair[:, 0], pair[:, 1], DASHED if first + second == "CD" else SOLID, width=0.45)
     graph.curves["parabola"] = parabola
     if differs:
-        graph.curve("parabola", *parabola, DOTTED, width=1.0)
+        graph.curve("parabola", *parabola, DOTTED)
     graph.curve("acceleration", x, y, width=0.9)
     places = [(name, *graph.point(*place)) for name, place in corners.items()]
     label_marks(paper, [*places, *_numbered(graph, tangents)], frame=box)
@@ -328,7 +329,7 @@ def centrodes(machine: Drawn) -> Drawing:
     centre = symbol("instant_centre_x", style.language).partition("_")[2]
     centre += "₀" if centre in letters.values() else ""
     rows = [
-        Row(translate("drawing.fixed_centrode", style.language, link=plain(coupler))),
+        Row(translate("drawing.fixed_centrode", style.language, link=plain(number_of(coupler)))),
         Row(
             f"{translate('drawing.moving_centrode', style.language)}, {position_text(float(degrees[row]), style)}",
             _ROLLING,
@@ -337,7 +338,7 @@ def centrodes(machine: Drawn) -> Drawing:
     ]
     paper, box = sheet(scaled_height(_HIGH), rows)
     graph = _graph(paper, box, np.vstack([point.place * scale for point in moved.points.values()]), style)
-    _linkage(graph, skeleton(mechanism, style.links).members, places)
+    _linkage(graph, skeleton(mechanism, style.links), moved, row)
     for key, path, dashes in (("fixed_centrode", fixed, SOLID), ("moving_centrode", rolling, _ROLLING)):
         graph.curve(key, *_within(graph, path * scale), dashes)
     marks = [(plain(letters[point]), *graph.point(*place)) for point, place in places.items() if point in letters]
@@ -373,11 +374,11 @@ def path_figure(machine: Drawn, names: Sequence[str]) -> Drawing:
     style, mechanism, row = machine.style, machine.results.machine.mechanism, machine.reached.row
     scale = float(displayed_values(QUANTITIES["point_x"], np.array(1.0)))
     paths = {name: scale * path for name, path in curved_paths(machine).items() if name in names}
-    moved, shape = sample_motion(mechanism, machine.reached.degrees).points, skeleton(mechanism, style.links)
-    places = {name: point.place[row] * scale for name, point in moved.items()}
+    moved, shape = sample_motion(mechanism, machine.reached.degrees), skeleton(mechanism, style.links)
+    places = {name: point.place[row] * scale for name, point in moved.points.items()}
     paper, box = sheet(_HIGH, [Row(plain(name), line) for name, line in zip(paths, STYLES, strict=False)])
     graph = _graph(paper, box, np.vstack([*paths.values(), *places.values()]), style, 0.1)
-    _linkage(graph, shape.members, places)
+    _linkage(graph, shape, moved, row)
     for (name, path), line in zip(paths.items(), STYLES, strict=False):
         graph.curve(f"path.{name}", path[:, 0], path[:, 1], line, angles=machine.reached.degrees)
     label_marks(paper, [(plain(shape.letters[name]), *graph.point(*place)) for name, place in places.items()
@@ -429,12 +430,17 @@ def _graph(paper: Canvas, box: ChartBox, places: Array, style: Style, around: fl
     return graph
 
 
-def _linkage(graph: Graph, members: Sequence[Member], places: Mapping[str, Array]) -> None:
-    """Draw the links as lines between their points."""
-    for member in members:
+def _linkage(graph: Graph, shape: Skeleton, moved: SampledMotion, row: int) -> None:
+    """Draw the links as lines between their points, and the rotation of a crank that turns."""
+    scale = float(displayed_values(QUANTITIES["point_x"], np.array(1.0)))
+    places = {name: point.place[row] * scale for name, point in moved.points.items()}
+    if shape.pin and row + 1 < len(moved.degrees):
+        pivot = next(iter(shape.pivots))
+        draw_rotation(graph, places[pivot], scale * moved.points[shape.pin].place[[row, row + 1]] - places[pivot])
+    for member in shape.members:
         for start, end in combinations([places[name] for name in member.points if name in places], 2):
             x, y = graph.across(np.array([start[0], end[0]])), graph.down(np.array([start[1], end[1]]))
-            graph.paper.line(x, y, width=1.8, colour=_LINK)
+            graph.paper.line(x, y, width=0.9, colour=_LINK)
 
 
 def _within(graph: Graph, path: Array) -> tuple[Array, Array]:

@@ -41,8 +41,8 @@ _STILL = 1e-3
 # a plan smaller than this has a scale of its own [mm]
 _READ = 15.0
 _LOOKS: dict[Kind, tuple[float, Dashes]] = {
-    "absolute": (1.6, SOLID), "relative": (0.9, SOLID), "tangential": (0.9, SOLID), "sliding": (0.9, SOLID),
-    "normal": (0.9, DASHED), "coriolis": (0.9, DASH_DOT),
+    "absolute": (0.9, SOLID), "relative": (0.45, SOLID), "tangential": (0.45, SOLID), "sliding": (0.45, SOLID),
+    "normal": (0.45, DASHED), "coriolis": (0.45, DASH_DOT),
 }  # fmt: skip
 _MARKS: dict[Kind, str] = {
     "absolute": "", "relative": "", "normal": "^n", "tangential": "^{}", "coriolis": "^k", "sliding": "^r"
@@ -194,15 +194,15 @@ def _remark(plan: VectorPolygon, kind: _Kind, language: Language) -> str:
     return "; ".join(remarks)
 
 
-def draw_vectors(graph: Graph, vectors: list[Vector], unit: float, thin: float = 1.0) -> None:
-    """Draw the vectors of a plan; `unit`: points of the paper in its unit; `thin`: by how much lines are thinner."""
+def draw_vectors(graph: Graph, vectors: list[Vector], unit: float, widest: float = 0.9) -> None:
+    """Draw the vectors of a plan; `unit`: points of the paper in its unit; `widest`: line. [pt]"""
     for vector in vectors:
         width, line = _LOOKS[vector.kind]
         start, end = (graph.point(*place) for place in (vector.start, vector.end))
         if vector.length * unit > 6:
-            graph.paper.arrow(start, end, width=thin * width, style=line)
+            graph.paper.arrow(start, end, width=min(width, widest), style=line)
         else:
-            graph.paper.line([start[0], end[0]], [start[1], end[1]], width=thin * width, style=line)
+            graph.paper.line([start[0], end[0]], [start[1], end[1]], width=min(width, widest), style=line)
 
 
 def _nodes(graph: Graph, plan: VectorPolygon, pole: str, unit: float) -> None:

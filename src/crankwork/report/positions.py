@@ -17,6 +17,7 @@ from crankwork.report.drawn_links import HATCH, SLOT, Rail, Scene, corners, scen
 from crankwork.report.look import (
     PLAIN,
     Style,
+    draw_rotation,
     draw_scale,
     figure_title,
     position_sign,
@@ -41,8 +42,6 @@ _THIN, _BLOCK, WHITE = "#8c8c8c", "#d9d9d9", "#ffffff"
 _NUMBER, _TOGETHER = 8.0, 2.5
 # of names of points [pt], what is free about them, and where they stand at a support [units of the picture]
 _LETTER, _CLEAR, _BY_SUPPORT = 9.0, 6.0, ((0.0, -33.0), (-24.0, -16.0), (24.0, -16.0))
-# radius of the arrow of rotation [pt]
-_ROTATION = 14.0
 # parts are drawn smaller than on a screen: units of the picture in a point of the paper
 _UNITS = 1.5
 
@@ -136,7 +135,7 @@ def _ground(sheet: _Sheet) -> None:
     """Draw guides and pivots, hatched."""
     for rail in sheet.drawn.rails:
         ends = np.array([rail.line.place(end)[0] for end in (rail.start - 14, rail.end + 14)])
-        _line_of(sheet.graph, ends, width=0.6, style=DASH_DOT)
+        _line_of(sheet.graph, ends, width=0.45, style=DASH_DOT)
         for wall in walls(rail):
             _hatched(sheet.graph, *wall)
     for name in sheet.drawn.skeleton.pivots:
@@ -150,7 +149,7 @@ def _line_of(graph: Graph, points: Array, *, width: float, style: Dashes = SOLID
 
 
 def _area_of(graph: Graph, points: Array, fill: str) -> None:
-    graph.paper.area(graph.across(points[:, 0]), graph.down(points[:, 1]), fill=fill, width=1.0)
+    graph.paper.area(graph.across(points[:, 0]), graph.down(points[:, 1]), fill=fill, width=0.9)
 
 
 def _hatched(graph: Graph, start: Array, end: Array) -> None:
@@ -158,15 +157,15 @@ def _hatched(graph: Graph, start: Array, end: Array) -> None:
     length = float(np.hypot(*(end - start)))
     ahead = (end - start) / length
     slant = HATCH * (np.array([-ahead[1], ahead[0]]) - ahead)
-    _line_of(graph, np.array([start, end]), width=1.0)
+    _line_of(graph, np.array([start, end]), width=0.9)
     feet = start + np.arange(HATCH, length + 0.1, HATCH)[:, None] * ahead
     ends = [side(row[:, axis]) for row in (feet, feet + slant) for axis, side in ((0, graph.across), (1, graph.down))]
-    graph.paper.segments(np.column_stack(ends), width=0.5)
+    graph.paper.segments(np.column_stack(ends), width=0.45)
 
 
 def _plan(sheet: _Sheet, row: int, *, is_main: bool) -> None:
     """Draw the linkage at one crank angle."""
-    colour, width = (BLACK, 2.0) if is_main else (_THIN, 0.5)
+    colour, width = (BLACK, 0.9) if is_main else (_THIN, 0.45)
     graph = sheet.graph
     for bar in sheet.drawn.bars:
         nodes = np.array([node[row] for node in (*bar.nodes, bar.nodes[0])])
@@ -199,20 +198,14 @@ def _rotation(sheet: _Sheet) -> None:
     """Draw an arrow about the pivot of the crank, in the sense in which its angle grows."""
     drawn, row = sheet.drawn, sheet.plans[sheet.main]
     pivot = drawn.points[next(iter(drawn.skeleton.pivots))][0]
-    arms = drawn.points[drawn.skeleton.pin][[row, row + 1]] - pivot
-    sense = math.copysign(1.0, arms[0, 0] * arms[1, 1] - arms[0, 1] * arms[1, 0])
     # above the pivot, whose name stands below
-    angles = np.pi / 2 + sense * np.linspace(-0.75, 0.75, 16)
-    x, y = sheet.graph.point(*pivot)
-    across, down = x + _ROTATION * np.cos(angles), y - _ROTATION * np.sin(angles)
-    sheet.graph.paper.line(across[:-1], down[:-1], width=0.6)
-    sheet.graph.paper.arrow((across[-2], down[-2]), (across[-1], down[-1]), width=0.6)
+    draw_rotation(sheet.graph, pivot, drawn.points[drawn.skeleton.pin][[row, row + 1]] - pivot)
 
 
 def _paths(sheet: _Sheet, names: Sequence[str]) -> None:
     """Draw the paths of the crank pin and of the coupler points."""
     for name in (*([sheet.drawn.skeleton.pin] if sheet.drawn.skeleton.pin else []), *names):
-        _line_of(sheet.graph, sheet.drawn.points[name], width=0.6, style=DASH_DOT)
+        _line_of(sheet.graph, sheet.drawn.points[name], width=0.45, style=DASH_DOT)
 
 
 def _number_guide(sheet: _Sheet, rail: Rail) -> bool:
@@ -246,7 +239,7 @@ def _write_along(sheet: _Sheet, rail: Rail, side: int, numbers: Sequence[tuple[s
     out = wall + _UNITS * (8.0 + abs(y) * wide / 2 + abs(x) * 0.5 * font_size(_NUMBER))
     for (text, position), place in zip(numbers, _spread([number for _, number in numbers], spacing), strict=True):
         ends = [rail.line.place(*end)[0] for end in ((position, side * wall), (place, side * (0.6 * wall + 0.4 * out)))]
-        sheet.graph.paper.line(*np.array([sheet.graph.point(*end) for end in ends]).T, width=0.4, colour=_THIN)
+        sheet.graph.paper.line(*np.array([sheet.graph.point(*end) for end in ends]).T, width=0.45, colour=_THIN)
         middle = sheet.graph.point(*rail.line.place(place, side * out)[0])
         sheet.graph.text_on_white(middle[0], middle[1] + 0.35 * font_size(_NUMBER), text, "middle", _NUMBER)
 

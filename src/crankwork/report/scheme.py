@@ -40,7 +40,7 @@ def crank_gear_scheme(title: str, language: Language = "en") -> Drawing:
     )
     for key, start, reach, (right, down) in forces:
         end = start + reach
-        canvas.arrow(start.tolist(), end.tolist(), width=1.4, colour=_ACCENT)
+        canvas.arrow(start.tolist(), end.tolist(), width=0.9, colour=_ACCENT)
         anchor: Anchor = "end" if right < 0 else "start"
         text = f"${symbol(key, language)}$"
         canvas.text(end[0] + right, end[1] + down, text, size=10.0, anchor=anchor, colour=_ACCENT)
@@ -60,8 +60,8 @@ def _mechanism(canvas: Canvas, pin: Array, piston: Array) -> None:
     half = _BORE / 2 - 1.5
     left, right, up, down = x - half, x + half, piston[1] - _PISTON / 2, piston[1] + _PISTON / 2
     canvas.area([left, right, right, left], [up, up, down, down], fill="#eeeeee", width=0.9)
-    canvas.line([piston[0], pin[0]], [piston[1], pin[1]], width=1.8)
-    canvas.line([x, pin[0]], [y, pin[1]], width=1.8)
+    canvas.line([piston[0], pin[0]], [piston[1], pin[1]], width=0.9)
+    canvas.line([x, pin[0]], [y, pin[1]], width=0.9)
     for place in (_CENTRE, pin, piston):
         canvas.dot(place[0], place[1], 3.0, fill="#ffffff", width=0.9)
 
@@ -95,7 +95,7 @@ def _head(canvas: Canvas, centre: Array, radius: float, angle: float) -> None:
     """Draw the head of a clockwise arrow on a circle, which ends at an angle from the axis."""
     back = angle - 7.0 / radius
     start, end = (centre + radius * np.array([math.sin(turned), -math.cos(turned)]) for turned in (back, angle))
-    canvas.arrow(start.tolist(), end.tolist(), width=0.5)
+    canvas.arrow(start.tolist(), end.tolist(), width=0.45)
 
 
 def _lengths(canvas: Canvas, pin: Array, piston: Array, rod: Array, across: Array, language: Language) -> None:
@@ -107,5 +107,5 @@ def _lengths(canvas: Canvas, pin: Array, piston: Array, rod: Array, across: Arra
     level, right = _CENTRE[1] - _CRANK - _ROD, _CENTRE[0] + _BORE / 2 + 16.0
     for height in (level, piston[1]):
         canvas.line([_CENTRE[0], right + 4.0], [height, height], width=0.45)
-    canvas.arrow((right, level), (right, piston[1]), width=0.5)
+    canvas.arrow((right, level), (right, piston[1]), width=0.45)
     canvas.text(right + 5.0, (level + piston[1]) / 2 + 3.0, f"${symbol('piston_displacement', language)}$", size=10.0)

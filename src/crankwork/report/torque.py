@@ -33,7 +33,7 @@ from crankwork.show.chart import (
     true_slices,
     write_remark,
 )
-from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.chart_layout import columns_of, current_layout, scaled_height
 from crankwork.show.label_placement import label_points
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 from crankwork.units import from_si
@@ -42,6 +42,8 @@ _FIRING, _PANEL_GAP = 15.0, 15.0
 _THIN, _NAMED = 0.45, 0.9
 _UPPER, _LOWER, _GAP = 216.0, 144.0, 16.0
 _MOST_TICKS = 12
+# height of one of several small graphs, and what is between two beside each other [pt]
+_SMALL_GRAPH, _COLUMN_GAP = 96.0, 20.0
 _MOST_NAMED = 24
 # letters of the work of a loop [pt]
 _NAME = 7.5
@@ -95,6 +97,33 @@ def _summed(engine: Drawn, key: str, own: str, mean: float | None = None) -> tup
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(f"{engine.symbol(key)}, {engine.symbol(own)}, {engine.unit(key)}")
     return paper, {key: graph}
+
+
+def cylinder_torques(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the torque of every cylinder as small graphs of common axes, in the order in which they fire."""
+    values = engine.shown("crank_torque", engine.diagrams.torques)
+    places, ends = engine.diagrams.engine.layout.places, limits(values)
+    columns = columns_of(next(count for count in (4, 3, 5, 2, 1) if len(places) % count == 0 or count < 3))
+    layout, lines, gaps = current_layout(), -(-len(places) // columns), (_COLUMN_GAP, _PANEL_GAP + 3.0)
+    wide, high = (layout.inner + gaps[0]) / columns - gaps[0], scaled_height(_SMALL_GRAPH)
+    paper, graphs = Canvas(layout.width, TOP + 12 + lines * (high + gaps[1]) - gaps[1] + BOTTOM), dict[str, Graph]()
+    for place, index in enumerate(sorted(range(len(places)), key=lambda number: places[number].firing_angle)):
+        column, line = place % columns, place // columns
+        box = ChartBox(layout.left + column * (wide + gaps[0]), TOP + 12 + line * (high + gaps[1]), wide, high)
+        graph = Graph(paper, box, (0.0, engine.cycle), ends, engine.language, "crank_angle")
+        is_below = place + columns >= len(places)
+        graph.frame(
+            np.linspace(0.0, engine.cycle, 3 if columns > 2 else 5), graph.up_ticks, labels=(is_below, not column)
+        )
+        graph.curve(f"cylinder_{index + 1}", engine.diagrams.degrees, values[index])
+        name = translate("drawing.cylinder", engine.language, number=index + 1)
+        small_text(paper, graph.box.left + graph.box.width / 2, box.top - 5, name)
+        if not column:
+            graph.y_title(f"{engine.symbol('crank_torque')}, {engine.unit('crank_torque')}")
+        if is_below:
+            graph.x_title(f"{engine.symbol('crank_angle')}, {engine.unit('crank_angle')}")
+        graphs[str(index + 1)] = graph
+    return paper, graphs
 
 
 def accumulated_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:

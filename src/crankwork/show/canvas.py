@@ -108,7 +108,7 @@ class Canvas:
         y: Sequence[float] | Array,
         *,
         style: Style = SOLID,
-        width: float = 0.8,
+        width: float = 0.45,
         colour: str = BLACK,
         name: str = "",
     ) -> None:
@@ -129,7 +129,7 @@ class Canvas:
         """Hatch an area with slanted lines at a distance. [pt]"""
         self.items.append(Hatch(_places(x, y), spacing * MM))
 
-    def segments(self, ends: Array, *, width: float = 0.5, colour: str = BLACK) -> None:
+    def segments(self, ends: Array, *, width: float = 0.45, colour: str = BLACK) -> None:
         """Draw many straight lines at once, such as hatching.
 
         `ends`: x and y of the start, x and y of the end of each [pt], shape (n, 4).
@@ -146,7 +146,7 @@ class Canvas:
         start: Sequence[float],
         end: Sequence[float],
         *,
-        width: float = 1.0,
+        width: float = 0.9,
         colour: str = BLACK,
         style: Style = SOLID,
     ) -> None:

@@ -223,6 +223,10 @@ class Graph:
         self._titles["y"], offset = marked(text), max(offset, self._numbers + _CLEAR)
         size, text, room = 8.0, self._titled(text, 1), (self.box.height + 10) / WIDER
         lines = fitted_lines(text, size, room)
+        words, sign, rest = text.partition("$")
+        if len(lines) == 2 and words and text_width(words, size) <= room:
+            # a unit does not stand without its symbol
+            lines = words.rstrip(), sign + rest
         if len(lines) > 2 and current_layout().is_sheet and "$" in text:
             # a sheet has no smaller letters; the symbol is explained above it
             lines = fitted_lines(text[text.index("$") :], size, room)
@@ -279,7 +283,7 @@ def legend(paper: Canvas, rows: Sequence[Row], top: float) -> None:
     for index, (row, text) in enumerate(_legend_lines(rows)):
         left, level = current_layout().left + 8, top + LEGEND_ROW * index
         if row is not None and row.style == CIRCLE:
-            paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=1.0)
+            paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=0.9)
         elif row is not None and row.style == DOT:
             paper.dot(left + 10, level + 6, 1.6, fill=row.colour)
         elif row is not None and row.style == ARROW:

@@ -122,7 +122,7 @@ def _draw_leader(paper: Canvas, mark: Array, shift: Array, half: Array) -> None:
     """Draw a thin line from a mark to the edge of its name."""
     share = 1.0 - min(1.0, float(np.min(half / np.maximum(np.abs(shift), 1e-9))))
     start, end = mark + 0.12 * shift, mark + share * shift
-    paper.line([start[0], end[0]], [start[1], end[1]], width=0.4, colour=GREY)
+    paper.line([start[0], end[0]], [start[1], end[1]], width=0.45, colour=GREY)
 
 
 class _Texts:

@@ -188,6 +188,20 @@ def line(start: ArrayLike, end: ArrayLike, kind: LineKind = "thin") -> Polyline:
     return Polyline(np.array([start, end], dtype=float), kind)
 
 
+def rotation_arrow(
+    centre: ArrayLike, radius: float, sense: float, around: float = 90.0, kind: LineKind | Pen = "thin"
+) -> list[Item]:
+    """Return an arrow about a centre that shows a rotation, on both sides of a direction [deg].
+
+    `sense`: positive anticlockwise.
+    """
+    turns = np.radians(around + math.copysign(1.0, sense) * np.linspace(-43.0, 43.0, 16))
+    points = np.asarray(centre, dtype=float) + radius * np.column_stack([np.cos(turns), np.sin(turns)])
+    head = Polyline(np.array([(0.0, 0.0), (-1.8, 0.55), (-1.8, -0.55)]), Pen(0.0), closed=True, fill=0.0)
+    ahead = math.degrees(math.atan2(*(points[-1] - points[-4])[::-1]))
+    return [Polyline(points[:-2], kind), use_layout(head, points[-1], ahead)]
+
+
 def rectangle(box: ChartBox, kind: LineKind = "thin", fill: float | None = None) -> Polyline:
     """Return the sides of a rectangle."""
     corners = [(box.left, box.bottom), (box.right, box.bottom), (box.right, box.top), (box.left, box.top)]

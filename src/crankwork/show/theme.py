@@ -6,8 +6,9 @@ from typing import Literal, NamedTuple, get_args
 
 from crankwork.show.scene import Drawing, Item, Polyline, pen_of
 
-Theme = Literal["print", "colour", "dark"]
-THEMES: tuple[Theme, ...] = get_args(Theme)
+Theme = Literal["print", "colour", "dark", "black"]
+# those that a user may ask for; sheets are black
+THEMES: tuple[Theme, ...] = get_args(Theme)[:-1]
 
 
 class Palette(NamedTuple):
@@ -24,6 +25,7 @@ _PALETTES: dict[Theme, Palette] = {
     "print": Palette(
         "#ffffff", "#000000", {"solid": "#000000", "dashed": "#0072b2", "dash-dot": "#737373", "dotted": "#000000"}
     ),
+    "black": Palette("#ffffff", "#000000", {}),
     "colour": Palette(
         "#ffffff", "#000000", {"solid": "#0072b2", "dashed": "#d55e00", "dash-dot": "#009e73", "dotted": "#a6548a"}
     ),
@@ -77,4 +79,4 @@ def themed_item(item: Item, theme: Theme) -> Item:
         filled = _FILLS.get(item.name) if pen.colour in ("", _BLACK) else None
         return item if filled is None else item._replace(kind=pen._replace(colour=filled.get(theme, "")))
     kind = curve_kind(item)
-    return item._replace(kind=pen._replace(colour=_PALETTES[theme].curves[kind])) if kind else item
+    return item._replace(kind=pen._replace(colour=_PALETTES[theme].curves.get(kind, ""))) if kind else item

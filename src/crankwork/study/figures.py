@@ -77,7 +77,7 @@ def _histogram(study: Study, key: str, histogram: Histogram, language: Language)
     graph.frame(round_ticks(*x), graph.up_ticks)
     graph.curve("count", steps, heights, width=0.45)
     for level, style in ((stated, DASHED), *((end, DASH_DOT) for end in dict.fromkeys(ends))):
-        graph.curve("", [level, level], [0.0, top], style, width=1.0)
+        graph.curve("", [level, level], [0.0, top], style, width=0.9)
     graph.x_title(axis_title(key, language))
     graph.y_title(translate("study.count", language))
     return paper.drawing(translate("study.histogram_of", language, name=label(key, language)), language)
@@ -112,7 +112,7 @@ def _scatter(study: Study, aggregate: StudyAggregate, pair: tuple[str, str], lan
             paper.dot(*graph.point(float(x[index]), float(y[index])), radius, fill=fill)
     for key in pair:
         for index in best[key][:1]:
-            paper.dot(*graph.point(float(x[index]), float(y[index])), 2.8, fill="#ffffff", width=1.0)
+            paper.dot(*graph.point(float(x[index]), float(y[index])), 2.8, fill="#ffffff", width=0.9)
     graph.x_title(_wanted(study, pair[0], language))
     graph.y_title(_wanted(study, pair[1], language))
     return paper.drawing(translate("study.pareto_of", language), language)
@@ -170,9 +170,9 @@ def _parallels(study: Study, aggregate: StudyAggregate, language: Language) -> I
 
 def _parallel(axes: list[_Axis], background: int, best: Index, title: str, language: Language) -> Drawing:
     rows = [
-        Row(translate("study.best_line", language), width=2.0),
+        Row(translate("study.best_line", language), width=0.9),
         Row(translate("study.best_lines", language, count=str(best.size)), width=0.45),
-        Row(translate("study.some", language), width=0.6, colour=_FAINT),
+        Row(translate("study.some", language), width=0.45, colour=_FAINT),
     ]
     edge = 56.0
     across = np.linspace(edge, current_layout().width - edge, len(axes))
@@ -182,10 +182,10 @@ def _parallel(axes: list[_Axis], background: int, best: Index, title: str, langu
     top, bottom = box.top + 12, box.top + box.height
     down = np.array([bottom - (bottom - top) * axis.at for axis in axes])
     for index in range(background):
-        paper.line(across, down[:, index], width=0.3, colour=_FAINT)
+        paper.line(across, down[:, index], width=0.45, colour=_FAINT)
     paper.segments(np.array([(x, top, x, bottom) for x in across]), width=0.45, colour=GREY)
     for index in range(down.shape[1] - 1, background - 1, -1):
-        paper.line(across, down[:, index], width=1.8 if index == background else 0.6)
+        paper.line(across, down[:, index], width=0.9 if index == background else 0.45)
     for x, coordinate, name in zip(across.tolist(), axes, names, strict=True):
         small_text(paper, x, top - 5, plain(coordinate.ends[1]))
         small_text(paper, x, bottom + 10, plain(coordinate.ends[0]))
@@ -240,7 +240,7 @@ def _bars(study: Study, key: str, indices: Array, language: Language) -> Drawing
             fill(*corners)
             graph.curve("", np.append(corners[0], 0.0), np.append(corners[1], row + low), width=0.45)
             middle = row + (low + high) / 2
-            graph.curve("", [max(value - error, 0.0), value + error], [middle, middle], width=1.4)
+            graph.curve("", [max(value - error, 0.0), value + error], [middle, middle], width=0.9)
         y = float(graph.down(row + 0.5)) + 3
         paper.text(left - 6, y, plain(names[row]), size=8.5, anchor="end")
         share = " / ".join(number(round(100 * max(fraction, 0.0), 1), language) for fraction in (first, total))
@@ -356,7 +356,7 @@ def _surface(
     across, up = np.unravel_index(np.nanargmax(values), values.shape)
     largest = graph.point(float(x[across]), float(y[up]))
     contours(graph, field, levels[(levels > low) & (levels < high)], largest)
-    paper.dot(*largest, 2.6, fill="#ffffff", width=1.0)
+    paper.dot(*largest, 2.6, fill="#ffffff", width=0.9)
     graph.x_title(_axis(parameter_map, over[0], language))
     graph.y_title(_axis(parameter_map, over[1], language))
     return paper.drawing(_title(key, language), language)
@@ -374,7 +374,7 @@ def _curve(
         if np.isfinite(value):
             paper.dot(*graph.point(position, value), 1.3)
     largest = int(np.nanargmax(values))
-    paper.dot(*graph.point(float(x[largest]), float(values[largest])), 2.6, fill="#ffffff", width=1.0)
+    paper.dot(*graph.point(float(x[largest]), float(values[largest])), 2.6, fill="#ffffff", width=0.9)
     graph.x_title(_axis(parameter_map, over[0], language))
     graph.y_title(axis_title(key, language))
     return paper.drawing(_title(key, language), language)

@@ -105,9 +105,7 @@ class Sheet(NamedTuple):
         """The sheet as what is written."""
         box = self.paper.box
         plots = tuple(plot for figure in self.figures for plot in figure.drawing.plots)
-        # a sheet is black
-        items = (item._replace(name="") if isinstance(item, Polyline) else item for item in self.items)
-        return Drawing(self.title, self.language, box.width, box.height, tuple(items), plots)
+        return Drawing(self.title, self.language, box.width, box.height, self.items, plots)
 
     def figure(self, name: str) -> Fit:
         """Return a figure by its name."""
