@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import math
 import sys
+import zipfile
 
 import numpy as np
 import pytest
@@ -14,8 +16,10 @@ from crankwork.analysis.requested_values import with_requested
 from crankwork.study.optimise import best_of
 from crankwork.study.optimum_text import optimum_files
 from crankwork.study.parameter_map import mapped
+from crankwork.study.runner import ExecutionOptions, run_study
 from crankwork.study.solve_several import several_text, solve_several
 from crankwork.study.study_file import load_study
+from crankwork.study.study_text import found_files
 from machine_texts import POINTS_ENGINE
 
 pytestmark = pytest.mark.usefixtures("by_arrays")
@@ -29,7 +33,6 @@ cylinder.bore = "1.8 * crank.radius"
 rod.length = "3.5 * crank.radius"
 [designs]
 drawing = "grid"
-rows = true
 [vary]
 crank.radius = { from = "40 mm", to = "50 mm", steps = 4 }
 """
@@ -187,3 +190,16 @@ def test_a_file_of_numbers_is_no_number_that_follows():
 def test_a_column_alone_is_refused_with_what_to_write():
     with pytest.raises(CrankworkError, match="crank_torque@90deg, or crank_torque_max"):
         crankwork.sweep(SLIDER_CRANK, {"crank.radius": ["40 mm"]}, ["crank_torque"])
+
+
+def test_the_tables_of_a_study_are_a_workbook_too(study, tmp_path):
+    stated = load_study(study(STUDY))
+    aggregate = run_study(stated, tmp_path / "out", ExecutionOptions(1))
+    with zipfile.ZipFile(io.BytesIO(found_files(stated, aggregate)["study.xlsx"])) as book:
+        names = book.read("xl/workbook.xml").decode()
+        words = book.read("xl/sharedStrings.xml").decode()
+    assert "Histogram.side_force_max" in names
+    assert "Histogram.piston_displacement@" in names
+    assert "count" in words
+    # every design is kept where there are few, though the file does not say so
+    assert stated.has_rows

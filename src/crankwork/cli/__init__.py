@@ -455,7 +455,7 @@ def sweep(
         click.echo(f"\n{translate('study.stopped', options.language)}", err=True)
         raise
     drawings = found_drawings(stated, aggregate, options.language) if formats else {}
-    contents = found_files(stated, aggregate) | _figures(drawings, formats, options.theme)
+    contents = found_files(stated, aggregate, options.language) | _figures(drawings, formats, options.theme)
     files.write_folder(output, contents, overwrite=True)
     options.print_result(lambda: found_text(stated, aggregate, options.language), lambda: found_data(stated, aggregate))
     passed = time.monotonic() - started

@@ -160,7 +160,7 @@ def with_starts(
             swept = swept or _swept(mechanism, crank_range)
             if load.slider in swept:
                 low, high = swept[load.slider]
-                load = replace(load, start=low if load.forward > 0 else high)  # noqa: PLW2901
+                load = replace(load, start=low if load.forward > 0 else high, begins_at_end=True)  # noqa: PLW2901
                 if isinstance(load.force, LoadCurve) and load.force.stroke:
                     load = replace(load, force=load.force.over(high - low))  # noqa: PLW2901
         result.append(load)

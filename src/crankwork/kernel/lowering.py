@@ -46,6 +46,8 @@ Array = NDArray[np.float64]
 
 # Tolerance of an input as a linear function of a field, relative to its size.
 _TOLERANCE = 1e-12
+# how far a column may pass a point of a table, relative to the distance of its neighbours
+_PASSED = 1e-9
 # Tolerance of the ends of a law that are equal in all designs. [deg]
 _END_TOLERANCE = 1e-9
 # Largest change of a direction from the stated design for which its half turns are the same. [rad]
@@ -496,7 +498,22 @@ class Lowering:
         if fixed is not None and any(end.low <= fixed <= end.high for end in ends if end.value is not None):
             raise NotCompiledError("ends", argument.key)
         laws = [self._as_value(function.law_at(value)(x)) for value in between.tolist()]
-        return self.graph.pieces((*ends, LawEnd(math.inf, math.inf, math.inf)), tuple(laws), shift) if ends else laws[0]
+        ends.append(LawEnd(math.inf, math.inf, math.inf))
+        if fixed is None and x.depends_on_design:
+            # a design whose column passes points more or less often has other laws
+            size = float(np.abs(at_knots).max(initial=0.0)) or 1.0
+            within = [
+                self._within(x / size, *np.array(function.ends_around(value)) / size) for value in between.tolist()
+            ]
+            inside = self.graph.pieces(tuple(ends), tuple(within), shift)
+            self._guards.append(self.graph.reduction("min", inside) + _PASSED)
+        return self.graph.pieces(tuple(ends), tuple(laws), shift)
+
+    def _within(self, x: KernelValue, low: float, high: float) -> KernelValue:
+        """Return a value that is negative where a column is not between two abscissas."""
+        if math.isinf(low) or math.isinf(high):
+            return self._as_value(1.0 if low == -high else (high - x if math.isinf(low) else x - low))
+        return (x - low) * (high - x) / (high - low) ** 2
 
     def _half_turns(self, node: AngleUnwrap, value_of: Any, shift: float) -> KernelValue:  # noqa: ANN401
         """Return the half turns of a direction that is close to that of the stated design."""

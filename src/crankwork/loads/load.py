@@ -67,6 +67,7 @@ class ProcessForce:
     against: Literal["stroke", "angle"] = "stroke"
     forward: Branch = 1  # 1 if the distance of the piece along its guide grows on the working stroke, -1 if it falls
     start: float = 0.0  # That distance where the working stroke begins [m]
+    begins_at_end: bool = False  # Whether that is an end of the stroke, which moves with the linkage
     # On the working stroke only, or on the return stroke too, with the same direction
     acts: Literal["forward", "both"] = "forward"
 
@@ -103,7 +104,9 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
     slide = motion.sliders[load.slider]
     start: Value = load.start
     if is_traced(slide.position):
-        start = given(f"slider_displacement.{load.slider}.start", start, f"{path}.start")
+        key = f"slider_displacement.{load.slider}.start"
+        end = ProcedureValue(load.start, "min" if load.forward == 1 else "max", (slide.position,))
+        start = TracedValue(end, key) if load.begins_at_end else given(key, start, f"{path}.start")
     # a rate with the sign of the velocity: the driver's coordinate may decrease
     rate = slide.position_1 if motion.driver is None else slide.position_1 * motion.driver.position_1
     travel = slide.position - start, rate
@@ -196,6 +199,13 @@ class StatedTable:
         """Return the abscissa of the point that is nearest to an abscissa."""
         x, _, _, turn, _ = self._around(abscissa)
         return float(x[np.argmin(np.abs(x + turn - abscissa))]) + turn
+
+    def ends_around(self, abscissa: float) -> tuple[float, float]:
+        """Return the abscissas of the points before and after an abscissa, infinite where there is none."""
+        x, _, _, turn, first = self._around(abscissa)
+        if not self.table.period and not x[0] < abscissa < x[-1]:
+            return (-math.inf, float(x[0])) if abscissa <= x[0] else (float(x[-1]), math.inf)
+        return float(x[first]) + turn, float(x[first + 1]) + turn
 
     def law_at(self, abscissa: float) -> Callable[[Value], Value]:
         """Return the law between the points around an abscissa, as a function of the abscissa."""

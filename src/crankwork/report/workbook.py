@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import math
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.locale import ErrorMessage, capital, translate
 from crankwork.locale.numbers import unit_name
-from crankwork.quantities import Language
+from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.display import display_key, displayed, in_own_units, key_unit, label, row_name, symbol
 from crankwork.report.summary import by_subject, check_status, provenance
 from crankwork.report.tables import Sheet, sheets
@@ -77,8 +77,10 @@ class _Writer:
 
     def title(self, sheet: Any, column: int, key: str, unit: str) -> None:  # noqa: ANN401 - xlsxwriter has no types
         """Write the heading of a column: its name, its symbol with the subscript below, and its unit."""
-        named, unit = label(key, self._language), unit_name(unit, self._language)
-        parts = self._set(symbol(key, self._language))
+        # a study has numbers of the machine file beside results
+        is_result = base_key(key) in QUANTITIES
+        named, unit = label(key, self._language) if is_result else key, unit_name(unit, self._language)
+        parts = self._set(symbol(key, self._language)) if is_result else []
         after = f", {unit}" if unit else ""
         if not parts:
             sheet.write_string(0, column, f"{named}{after}", self.heading)
@@ -125,27 +127,42 @@ class _Writer:
 
 def workbook(results: Results, *, language: Language = "en", per_area: bool = False) -> bytes:
     """Return single values, what was given, checks and all tables as an XLSX workbook."""
+
+    def fill(writer: _Writer) -> None:
+        _values(results, writer, language, per_area=per_area)
+        _givens(results, writer, language)
+        _checks(results, writer, language)
+
+    named = {translate(f"tables.{name}", language): table for name, table in sheets(results, per_area=per_area).items()}
+    properties = {"title": results.machine.title[:255], "comments": provenance(results)}
+    return workbook_of(named, properties, language, fill)
+
+
+def workbook_of(
+    tables: Mapping[str, Sheet],
+    properties: Mapping[str, str],
+    language: Language,
+    fill: Callable[[_Writer], None] = lambda _: None,
+) -> bytes:
+    """Return tables by title as an XLSX workbook, after the sheets that `fill` writes."""
     try:
         import xlsxwriter  # noqa: PLC0415 - an optional part
         from xlsxwriter.exceptions import FileCreateError  # noqa: PLC0415
     except ImportError:
         raise MissingExtraError(ErrorMessage("extra_writing", names="XLSX"), "tables") from None
-    stream, tables = io.BytesIO(), sheets(results, per_area=per_area)
+    stream = io.BytesIO()
     cells = sum(len(column) for table in tables.values() for column in table.columns.values())
     # rows that are written wait in files, which takes longer where they are few
     kept = {"in_memory": True} if cells < _MANY else {"constant_memory": True}
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         book = xlsxwriter.Workbook(stream, {**kept, "strings_to_formulas": False, "tmpdir": folder})
         # the same tables are the same bytes
-        properties = {"title": results.machine.title[:255], "comments": provenance(results)}
         book.set_properties({"created": _CREATED, **properties})
         writer = _Writer(book, language)
         try:
-            _values(results, writer, language, per_area=per_area)
-            _givens(results, writer, language)
-            _checks(results, writer, language)
-            for name, table in tables.items():
-                _fill(writer, capital(translate(f"tables.{name}", language)), table, language)
+            fill(writer)
+            for title, table in tables.items():
+                _fill(writer, capital(title), table, language)
             book.close()
         except (OSError, FileCreateError) as error:
             raise _full(error) from None
@@ -238,7 +255,9 @@ def _fill(writer: _Writer, title: str, table: Sheet, language: Language) -> None
         if table.names:
             sheet.write_string(row, 0, row_name(table.names[row - 1], language))
         for number, value in enumerate(values, start=first):
-            if math.isfinite(value):
+            if isinstance(value, str):
+                sheet.write_string(row, number, value)
+            elif math.isfinite(value):
                 sheet.write_number(row, number, value)
     if not table.names:
         writer.charts(sheet, table, len(columns))
@@ -246,6 +265,8 @@ def _fill(writer: _Writer, title: str, table: Sheet, language: Language) -> None
 
 def _number_format(values: Array | Sequence[float]) -> str:
     """Return the format in which the largest number of a column shows its digits, whole ones none behind the mark."""
+    if np.asarray(values).dtype == object:
+        return "@"
     known = np.abs(np.asarray(values, dtype=float))
     known = known[np.isfinite(known)]
     largest = float(known.max(initial=0.0))

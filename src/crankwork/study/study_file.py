@@ -26,6 +26,8 @@ from crankwork.study.variants import check_single
 from crankwork.study.varied_field import VariedField
 from crankwork.units import System, use_units
 
+# designs of which all are kept if the file does not say
+_FEW = 100_000
 # number of points of a Sobol sequence of 30 bits
 MAX_DESIGNS = 2**30
 _MAX_FIELDS, _MAX_VALUES = 40, 10_000
@@ -84,7 +86,7 @@ _DESIGNS = TableSpec("designs", {
     "seed": KeySpec(Number(0, 2**31, whole=True), default=0, only={"drawing": DRAWN}),
     "angles": KeySpec(Number(36, 72_000, whole=True)),
     "best": KeySpec(Number(1, 1000, whole=True), default=10),
-    "rows": KeySpec(Flag(), default=False),
+    "rows": KeySpec(Flag()),
     "chunk": KeySpec(Number(1, 2**17, whole=True)),
 })  # fmt: skip
 _SEARCH = TableSpec("search", {
@@ -210,7 +212,7 @@ def read_study(
         angles=None if designs["angles"] is None else int(designs["angles"]),
         chunk=None if designs["chunk"] is None else int(designs["chunk"]),
         best=int(designs["best"]),
-        has_rows=designs["rows"],
+        has_rows=count <= _FEW if designs["rows"] is None else designs["rows"],
         objectives={key: _SIGNS[word] for key, word in objectives.items()},
         limits=limits,
         keys=keys,

@@ -14,6 +14,7 @@ from crankwork.locale import Language, capital, in_language, translate
 from crankwork.locale.numbers import aligned, number, unit_name
 from crankwork.report.display import displayed, displayed_column, displayed_size, key_unit, label, plain
 from crankwork.report.tables import Sheet, csv_of_sheet
+from crankwork.report.workbook import workbook_of
 from crankwork.show.canvas import plain as plain_text
 from crankwork.study.chunks import NUMBER, StudyAggregate, feasible_designs, ranks
 from crankwork.study.ranking import Index, Moments
@@ -28,12 +29,14 @@ _SHOWN = 3
 _MIN_SHARE = 0.005
 
 
-def found_files(study: Study, aggregate: StudyAggregate) -> dict[str, bytes]:
+def found_files(study: Study, aggregate: StudyAggregate, language: Language = "en") -> dict[str, bytes]:
     """Return the files of a study's folder besides its parts."""
     data = json.dumps(found_data(study, aggregate), ensure_ascii=False, indent=1)
     with use_units(study.units):
-        tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in _sheets(study, aggregate).items()}
-    return {"summary.json": f"{data}\n".encode(), **tables}
+        sheets = _sheets(study, aggregate)
+        tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in sheets.items()}
+        book = workbook_of(sheets, {"title": study.title[:255]}, language)
+    return {"summary.json": f"{data}\n".encode(), **tables, "study.xlsx": book}
 
 
 def found_text(study: Study, aggregate: StudyAggregate, language: Language = "en") -> str:

@@ -39,6 +39,8 @@ _SAMPLED = 0.1
 _OFFSET = 1e-3
 # fractions of the distance to the end of a range that are tried
 _NEARER = (1.0, 0.5, 0.25, 0.1, 0.01)
+# calculations of one machine file, and designs drawn to see whether they have other laws
+_MAX_KERNELS, _DRAWN = 8, 24
 # designs of one batch of a thread
 _BATCH_SIZE = 4096
 # designs analysed to check the compiled calculation
@@ -70,7 +72,8 @@ class MachineVariants:
     ) -> None:
         self._description, self._overrides = description, list(overrides)
         self._numbers, self._spans, self.keys = numbers, spans, list(keys)
-        self._kernel: Kernel | None = None
+        # for designs with other laws, each around one of them
+        self._kernels: list[Kernel] = []
         # why the calculation is not compiled, and the key that shows it
         self.reason, self.at_key = "", ""
         self.stated = self.results(spans[:, 1])
@@ -84,23 +87,57 @@ class MachineVariants:
         return with_requested(analyse(self._description.machine([*self._overrides, *written])), self.keys)
 
     def compile(self, steps: int | None, checked: Array, *, is_for_few: bool = False) -> None:
-        """Compile the calculation and check it against analyses of some designs; store the reason if that fails."""
-        try:
-            kernel = self.kernel(steps, is_for_few=is_for_few)
-            self._check(kernel, checked, _SAME if steps is None else _SAMPLED)
-        except NotCompiledError as error:
-            self.reason, self.at_key = error.reason, error.key
-        else:
-            self._kernel = kernel
+        """Compile the calculation and check it against analyses of some designs; store the reason if that fails.
 
-    def kernel(self, steps: int | None = None, **more: Any) -> Kernel:  # noqa: ANN401 - options of kernels
-        """Return the compiled calculation; raise NotCompiledError if it cannot be compiled."""
-        middle = self._spans[:, 1]
-        rows, samples = [middle], [self.stated]
+        A calculation follows the laws of the designs that it was traced from. Designs that have other laws, such as a
+        force that begins earlier in the cycle than another one, get a calculation of their own, as far as they are
+        among those checked or drawn.
+        """
+        limit = _SAME if steps is None else _SAMPLED
+        low, _, high = self._spans.T[:, :, None]
+        drawn = low + (high - low) * np.random.default_rng(0).random((len(low), _DRAWN))
+        left, centre, part = np.concatenate([checked, drawn], axis=1), self._spans[:, 1], 1.0
+        for _ in range(_MAX_KERNELS):
+            try:
+                kernel = self.kernel(steps, around=centre, part=part, is_for_few=is_for_few)
+                self._check(kernel, checked if part == 1.0 else centre[:, None], limit)
+            except NotCompiledError as error:
+                if not self._kernels:
+                    self.reason, self.at_key = self.reason or error.reason, self.at_key or error.key
+                if error.reason not in ("ways", "absent"):
+                    return
+            except CrankworkError:
+                # there is no such machine
+                pass
+            else:
+                self._kernels.append(kernel)
+                self.reason = self.at_key = ""
+                batch = kernel(left)
+                is_known = (batch.truncation_error <= CONVERGED) & np.isfinite(batch.values).all(axis=0)
+                left = left[:, ~is_known]
+            if not left.shape[1]:
+                return
+            centre, left, part = left[:, 0], left[:, 1:], _NEARER[-1]
+
+    def kernel(
+        self,
+        steps: int | None = None,
+        *,
+        around: Array | None = None,
+        part: float = 1.0,
+        **more: Any,  # noqa: ANN401 - options of kernels
+    ) -> Kernel:
+        """Return the compiled calculation; raise NotCompiledError if it cannot be compiled.
+
+        `around`: the design that numbers are varied from, over a `part` of their ranges; else the intermediate one.
+        """
+        middle = self._spans[:, 1] if around is None else around
+        stated = self.stated if around is None else self.results(middle)
+        rows, samples = [middle], [stated]
         for index, (low, _, high) in enumerate(self._spans):
             ends = (low, high) if low < high else middle[index] + np.array([-1, 1]) * _OFFSET * middle[index]
             for end in ends:
-                row, results = self._near(middle, index, end)
+                row, results = self._near(middle, index, middle[index] + part * (end - middle[index]))
                 rows.append(row)
                 samples.append(results)
         if any("crank_range" in sample.summary for sample in samples):
@@ -155,10 +192,15 @@ class MachineVariants:
         `explained`: how many designs without compiled values are analysed for the reason, all by default.
         """
         count = designs.shape[1]
-        if self._kernel is None:
-            batch = BatchResult(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
-        else:
-            batch = threaded(self._kernel, designs, workers)
+        batch = BatchResult(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
+        for order, kernel in enumerate(self._kernels):
+            others = np.flatnonzero(~((batch.truncation_error <= CONVERGED) & np.isfinite(batch.values).all(axis=0)))
+            if others.size:
+                found = threaded(kernel, designs[:, others], workers)
+                is_better = (found.truncation_error <= CONVERGED) & np.isfinite(found.values).all(axis=0)
+                kept = is_better | (order == 0)
+                batch.values[:, others[kept]] = found.values[:, kept]
+                batch.truncation_error[others[kept]] = found.truncation_error[kept]
         inexact = batch.truncation_error > CONVERGED
         absent = ~np.isfinite(batch.values).all(axis=0)
         left = np.flatnonzero(inexact)
