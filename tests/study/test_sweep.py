@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import crankwork
+from crankwork.description.numeric_field import numeric_field
 from crankwork.errors import CrankworkError
 from crankwork.kernel import compiled as compiled_kernels
 from each import for_each
@@ -134,3 +135,22 @@ def test_units_and_seed_go_with_designs_into_a_file(tmp_path):
     assert read.attrs["seed"] == "7"
     assert read.attrs["units"] == {"rod.length": "m", "piston_acceleration_max": "m/s2", "stroke": "m"}
     assert len(read) == len(best.history)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["press", "toggle-press"])
+def test_designs_whose_force_begins_at_other_angles_have_calculations_of_their_own(name):
+    """The slide passes points of its force more or less often; dead centres pass the start of the cycle."""
+    d = crankwork.Description(crankwork.template(name))
+    fields = ("crank.radius", "links.rod.length")
+    stated = [numeric_field(d.values_with(()), key).now for key in fields]
+    draw = np.random.default_rng(3)
+    designs = {key: now * (1 + 0.02 * draw.uniform(-1, 1, 80)) for key, now in zip(fields, stated, strict=True)}
+    keys = ["motor_power", "joint_force_max.A", "driving_torque_max", "mean_torque"]
+    found = crankwork.sweep(d, {key: column.tolist() for key, column in designs.items()}, keys)
+    assert not found.reason
+    assert found.one_by_one <= 8
+    for place in range(0, 80, 16):
+        results = crankwork.analyse(d.machine([f"{key} = {float(column[place])!r} m" for key, column in designs.items()]))
+        for key in keys:
+            assert found.values[key][place] == pytest.approx(results.value(key), rel=1e-9)

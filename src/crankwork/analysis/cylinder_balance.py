@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -38,7 +38,7 @@ from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
 from crankwork.formula.replay import Samples, replay
-from crankwork.formula.traced_value import ProcedureValue, TracedValue, given, in_order, total
+from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, given, in_order, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.quantities.key import key_of
 
@@ -217,24 +217,50 @@ def _residual_formulas(
                 if not isinstance(weight.mass_moment, TracedValue):
                     return {}
                 force = unbalance_force(weight.mass_moment, engine.master.trace["speed"])
-                terms.append((force, turning_forces(engine.layout, (weight,), engine.master.speed)))
+                terms.append((force, _over(turning_forces(engine.layout, (weight,), engine.master.speed), force.value)))
+        elif kind == "reciprocating" and balance.harmonics.coefficients.ndim > 1:
+            terms += _waves_of_cylinders(engine, balance, order)
         elif value.force.largest or value.moment.largest:
             key = {"reciprocating": f"order_inertia_force.{order}", "rotating": "unbalance_force.rotating"}.get(
                 kind, ""
             )
             if key not in values:
                 return {}
-            terms.append((values[key], value))
+            terms.append((values[key], _over(value, values[key].value)))
     result = {}
     for kind in ("force", "moment"):
         sums = [
-            [(force, getattr(getattr(item, kind), field) / force.value) for force, item in terms]
+            [(force, getattr(getattr(item, kind), field)) for force, item in terms]
             for field in Ellipse._fields
         ]  # fmt: skip
         sizes = [size_of_sum(products) for products in sums if any(factor for _, factor in products)]
         if sizes:
             result[kind] = total("", sizes)
     return result
+
+
+def _over(value: OrderBalance, force: float) -> OrderBalance:
+    """Return the vectors of a free force and moment for a force of 1."""
+    parts = (Ellipse(*(part / force for part in ellipse)) for ellipse in (value.force, value.moment))
+    return OrderBalance(value.order, *parts)
+
+
+def _waves_of_cylinders(
+    engine: MultiCylinderEngine, balance: EngineBalance, order: int
+) -> Iterator[tuple[TracedValue, OrderBalance]]:
+    """Yield the waves of an order of the inertia force of each cylinder, with their vectors for a force of 1."""
+    index, count = balance.harmonics.orders.index(order), len(engine.cylinders)
+    speed = engine.master.trace["speed"]
+    for number, cylinder in enumerate(engine.cylinders):
+        own = cylinder.trace
+        # what is multiplied by the square of the speed
+        column = own.get("inertia_acceleration", own["piston_acceleration"]).node.operands[0]
+        size = complex(balance.harmonics.coefficients[number, index]) * engine.master.lengths.crank_radius
+        for part, value, unit in (("cosine", size.real, 1.0), ("sine", -size.imag, -1j)):
+            wave = TracedValue(HarmonicCoefficient(value, column, part, order))
+            alone = InertiaHarmonics((order,), (unit * np.eye(count, dtype=complex))[:, [number]])
+            (vectors,) = free_forces(engine.layout, np.ones(count), 1.0, 1.0, alone)
+            yield own["reciprocating_mass"] * speed * speed * wave, vectors
 
 
 def _order_forces(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:

@@ -60,6 +60,7 @@ class CylinderSize(NamedTuple):
     lengths: SliderCrank | None = None  # Of crank and rod, without offset, in any unit
     chamber: str = ""  # Path of its chamber in the description, in a linkage
     clearance: float | None = None  # [m3]
+    offset: SliderCrank | None = None  # The same with the offset of the cylinder, if it changes the stroke [m]
 
 
 def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
@@ -67,7 +68,8 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
     table, cylinder = values["cycle"], values["cylinder"]
     if "kind" not in table:
         return None
-    stroke, clearance = _stroke_of_piston(values), cylinder.si("clearance_volume")
+    offset, clearance = _offset_lengths(values), cylinder.si("clearance_volume")
+    stroke = _stroke(values["crank"]) if offset is None else float(offset.stroke)
     has_volumes = clearance and (table["kind"] == "wiebe" or (cylinder["bore"] and stroke))
     if cylinder["compression_ratio"] is None and "total_volume" not in table and not has_volumes:
         if not reader.has_errors("cylinder.compression_ratio", "cylinder.clearance_volume"):
@@ -77,7 +79,7 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
         return None
     size = CylinderSize(
         cylinder["compression_ratio"], values["crank"]["speed"].value, int(values["engine"]["cylinders"] or 1),
-        cylinder.si("bore"), stroke, _rod_of(values), clearance=clearance,
+        cylinder.si("bore"), stroke, _rod_of(values), clearance=clearance, offset=offset,
     )  # fmt: skip
     pressure = calculated_pressure(table, size, pi, "cycle", reader)
     if pressure is None:
@@ -180,7 +182,7 @@ def _data(table: Values, cylinder: CylinderSize, angle: float, timing: Timing, p
     if "power" in table:
         size["rounds_size"] = True
     elif cylinder.bore and cylinder.stroke:
-        size |= {"bore": cylinder.bore, "stroke": cylinder.stroke}
+        size |= {"bore": cylinder.bore, "stroke": cylinder.stroke, "lengths": cylinder.offset}
     loss = table["mechanical_loss"]
     return table.made(
         GrinevetskyData,
@@ -201,14 +203,12 @@ def _stroke(crank: Values) -> float | None:
     return stroke
 
 
-def _stroke_of_piston(values: Values) -> float | None:
-    """Return the stroke, longer than twice the crank radius where the cylinder axis passes the shaft."""
-    stroke, lengths = _stroke(values["crank"]), _rod_of(values)
+def _offset_lengths(values: Values) -> SliderCrank | None:
+    """Return the lengths of a cylinder whose axis passes the shaft: its stroke is longer than twice the radius."""
     offsets = values["engine"]["offsets"] or [values["cylinder"]["offset"]]
     offset = 0.0 if offsets[0] is None else float(offsets[0].value)
-    if stroke is None or not offset or not turns_fully(lengths := lengths._replace(offset=offset)):
-        return stroke
-    return float(lengths.stroke)
+    lengths = _rod_of(values)._replace(offset=offset)
+    return lengths if _stroke(values["crank"]) is not None and offset and turns_fully(lengths) else None
 
 
 def _rod_of(values: Values) -> SliderCrank:

@@ -8,6 +8,7 @@ from typing import Literal
 
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.traced_value import absent, given
+from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.engine_size import MECHANICAL_LOSSES
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel
@@ -70,6 +71,7 @@ class GrinevetskyData:
     # Given size [m]
     bore: float | None = None
     stroke: float | None = None
+    lengths: SliderCrank | None = None  # Of an offset cylinder, from which its stroke follows [m]
     rounds_size: bool = False  # Whether bore and stroke that follow are rounded to whole millimetres
     # Of the heat to the coolant [-]
     cooling_factor: float = 0.5

@@ -10,7 +10,7 @@ import numpy as np
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
-from crankwork.kinematics.slider_crank import mean_piston_speed
+from crankwork.kinematics.slider_crank import SliderCrank, mean_piston_speed, stroke_offset
 from crankwork.loads.gas import clearance_volume, piston_area, swept_volume
 from crankwork.locale import ErrorMessage
 from crankwork.working_cycle import charge, engine_size
@@ -406,7 +406,8 @@ def sized(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
     converges, and its last pass is the one that is shown.
     """
     if data.bore is not None and data.stroke is not None:
-        worked.given("stroke", data.stroke, "crank.stroke")
+        stated = given("stroke", data.stroke, "crank.stroke")
+        worked.known["stroke"] = stated if data.lengths is None else _stroke_of(data.lengths)
         _of_size(worked, data)
         return []
     stroke = 0.0
@@ -433,6 +434,15 @@ def sized(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
         values |= {key: exact.value * 1e3, f"{key}_taken": taken * 1e3}
     _of_size(worked, data)
     return [("cycle_rounded_size", values)]
+
+
+def _stroke_of(lengths: SliderCrank) -> TracedValue:
+    r, l, e = (given(key, float(length), path) for (key, path), length in zip(_LENGTHS, lengths, strict=True))  # noqa: E741
+    stroke: TracedValue = stroke_offset(l, r, e)
+    return stroke.named("stroke")
+
+
+_LENGTHS = (("crank_radius", "crank.radius"), ("rod_length", "rod.length"), ("offset", "cylinder.offset"))
 
 
 def _effective_pressure(worked: Calculation, data: GrinevetskyData) -> None:
