@@ -256,9 +256,9 @@ def _waves_of_cylinders(
         # what is multiplied by the square of the speed
         column = own.get("inertia_acceleration", own["piston_acceleration"]).node.operands[0]
         size = complex(balance.harmonics.coefficients[number, index]) * engine.master.lengths.crank_radius
-        for part, value, unit in (("cosine", size.real, 1.0), ("sine", -size.imag, -1j)):
+        for part, value, unit in (("cosine", size.real, 1.0 + 0j), ("sine", -size.imag, -1j)):
             wave = TracedValue(HarmonicCoefficient(value, column, part, order))
-            alone = InertiaHarmonics((order,), (unit * np.eye(count, dtype=complex))[:, [number]])
+            alone = InertiaHarmonics((order,), np.eye(count, dtype=complex)[:, [number]] * np.complex128(unit))
             (vectors,) = free_forces(engine.layout, np.ones(count), 1.0, 1.0, alone)
             yield own["reciprocating_mass"] * speed * speed * wave, vectors
 

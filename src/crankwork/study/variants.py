@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.requested_values import with_requested
@@ -40,7 +41,7 @@ _OFFSET = 1e-3
 # fractions of the distance to the end of a range that are tried
 _NEARER = (1.0, 0.5, 0.25, 0.1, 0.01)
 # calculations of one machine file, and designs drawn to see whether they have other laws
-_MAX_KERNELS, _DRAWN = 8, 24
+_MAX_KERNELS, _MAX_FAILURES, _DRAWN = 8, 3, 24
 # designs of one batch of a thread
 _BATCH_SIZE = 4096
 # designs analysed to check the compiled calculation
@@ -97,11 +98,15 @@ class MachineVariants:
         low, _, high = self._spans.T[:, :, None]
         drawn = low + (high - low) * np.random.default_rng(0).random((len(low), _DRAWN))
         left, centre, part = np.concatenate([checked, drawn], axis=1), self._spans[:, 1], 1.0
-        for _ in range(_MAX_KERNELS):
+        failures = 0
+        while len(self._kernels) < _MAX_KERNELS and failures < _MAX_FAILURES:
+            unknown = np.arange(left.shape[1]) > (0 if part < 1.0 else -1)
             try:
                 kernel = self.kernel(steps, around=centre, part=part, is_for_few=is_for_few)
                 self._check(kernel, checked if part == 1.0 else centre[:, None], limit)
+                is_known = _known(kernel(left))
             except NotCompiledError as error:
+                failures += 1
                 if not self._kernels:
                     self.reason, self.at_key = self.reason or error.reason, self.at_key or error.key
                 if error.reason not in ("ways", "absent"):
@@ -110,14 +115,16 @@ class MachineVariants:
                 # there is no such machine
                 pass
             else:
-                self._kernels.append(kernel)
-                self.reason = self.at_key = ""
-                batch = kernel(left)
-                is_known = (batch.truncation_error <= CONVERGED) & np.isfinite(batch.values).all(axis=0)
-                left = left[:, ~is_known]
+                # a calculation that does not know the design it was made for knows no others
+                if part == 1.0 or is_known[0]:
+                    self._kernels.append(kernel)
+                    self.reason, self.at_key, unknown = "", "", ~is_known
+                else:
+                    failures += 1
+            left = left[:, unknown]
             if not left.shape[1]:
                 return
-            centre, left, part = left[:, 0], left[:, 1:], _NEARER[-1]
+            centre, part = left[:, 0], _NEARER[-1]
 
     def kernel(
         self,
@@ -194,11 +201,10 @@ class MachineVariants:
         count = designs.shape[1]
         batch = BatchResult(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
         for order, kernel in enumerate(self._kernels):
-            others = np.flatnonzero(~((batch.truncation_error <= CONVERGED) & np.isfinite(batch.values).all(axis=0)))
+            others = np.flatnonzero(~_known(batch))
             if others.size:
                 found = threaded(kernel, designs[:, others], workers)
-                is_better = (found.truncation_error <= CONVERGED) & np.isfinite(found.values).all(axis=0)
-                kept = is_better | (order == 0)
+                kept = _known(found) | (order == 0)
                 batch.values[:, others[kept]] = found.values[:, kept]
                 batch.truncation_error[others[kept]] = found.truncation_error[kept]
         inexact = batch.truncation_error > CONVERGED
@@ -217,6 +223,11 @@ class MachineVariants:
             except CrankworkError as error:
                 values.refused[int(index)] = error
         return values
+
+
+def _known(batch: BatchResult) -> NDArray[np.bool_]:
+    """Return which designs a calculation has values of, shape (n,)."""
+    return (batch.truncation_error <= CONVERGED) & np.isfinite(batch.values).all(axis=0)
 
 
 def single(results: Results, key: str) -> float:
