@@ -262,3 +262,23 @@ crank = { pivot = "O", pin = "A", radius = "60 mm", speed = "120 rpm" }
 rocker = { joins = ["D.1", "B"], length = "180 mm" }
 """
     assert idle(analyse(read_machine(text))) == {"fixed_points.E[1]": "unused", "fixed_points.E[2]": "unused"}
+
+
+def test_about_which_point_an_inertia_is_matters_only_with_a_centre_of_mass_beside_the_pivot():
+    text = """
+fixed_points = { O = ["0 mm", "0 mm"], C = ["300 mm", "0 mm"] }
+[crank]
+pivot = "O"
+pin = "A"
+radius = "60 mm"
+speed = "120 rpm"
+mass = "2 kg"
+inertia = "0.01 kg*m2"
+[links]
+coupler = { joins = ["A", "B"], length = "250 mm" }
+rocker = { joins = ["C", "B"], length = "180 mm" }
+"""
+    eccentric = text.replace('mass = "2 kg"', 'mass = "2 kg"\ncentre = ["30 mm", "0 mm"]')
+    for machine in (text, eccentric):
+        assert mistold(machine, ROOT) == []
+        assert mistold(machine.replace("[links]", 'inertia_about = "centre"\n[links]'), ROOT) == []

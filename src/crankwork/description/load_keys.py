@@ -68,7 +68,7 @@ _FRICTION = TableSpec("friction", {
 })  # fmt: skip
 
 EFFICIENCY = TableSpec("efficiency", {
-    "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True),
+    "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True, example="[0.95, 0.9]"),
     "decimals": KeySpec(Number(1, 6, whole=True)),
     "losses": KeySpec(Choice(("drive", "machine"))),
 })  # fmt: skip
