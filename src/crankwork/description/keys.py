@@ -201,7 +201,7 @@ MACHINE_FILE = TableSpec("file", {
 _SIZED = with_defaults(MACHINE_FILE, "crank", _CRANK, radius=None)
 SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
 
-# for a calculation of a working cycle alone, which only the motion beside it needs a rod for
+# for a calculation of a working cycle alone; only its motion needs a rod
 CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for keys in (MACHINE_FILE, SIZED_FILE))
 
 

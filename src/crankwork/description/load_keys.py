@@ -1,4 +1,4 @@
-"""The keys of what acts on a machine beside gas, of its friction, and of what drives it: of linkages and of engines."""
+"""The keys of what acts on a machine except gas, of friction, and of what drives it: of linkages and of engines."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def with_defaults(keys: TableSpec, name: str, table: TableSpec, **defaults: obje
     return keys._replace(keys={**keys.keys, name: entry})
 
 
-# those of a machine beside its mechanism and its gas
+# keys of a machine that are not about its mechanism or its gas
 LOADING = {
     "loads": KeySpec(ListOf(_LOAD)),
     "friction": KeySpec(_FRICTION),

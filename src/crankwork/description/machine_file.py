@@ -167,7 +167,7 @@ def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
 
 
 def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
-    """Return the keys that can never have an effect beside the others, with the reason; none in files of format 1."""
+    """Return the keys that can never have an effect with the others, with the reason; none in files of format 1."""
     if values["format"] == 1:
         return {}
     if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE):
