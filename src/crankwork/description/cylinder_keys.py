@@ -90,7 +90,7 @@ _RIM = TableSpec("rim", {
     "ratio": KeySpec(Number(1e-3, 1e3), only={"density": ()}),
     "width": KeySpec(_SIZE, instead_of=("ratio",), only={"density": ()}),
     "thickness": KeySpec(_SIZE, instead_of=("ratio",), only={"density": ()}),
-    "share": KeySpec(Number(0.0, 1.0, above=True), default=1.0),
+    "share": KeySpec(Number(1e-6, 1.0), default=1.0),
 })  # fmt: skip
 
 FLYWHEEL = TableSpec("flywheel", {
