@@ -6,9 +6,9 @@ import copy
 import re
 import tomllib
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,8 +27,12 @@ from expansions import written
 
 # a change is more than this part of a value, and of the largest of its dimension
 LIMIT, ROUNDING = 1e-9, 1e-13
+# of columns of one cylinder a greater part, so that those of the engine have a change in any case
+_SEEN = 1e-6
 # crank angles at which columns are computed again
 _LOOKS = CrankGrid.from_degrees([17.0, 71.0, 139.0, 223.0, 311.0])
+# tables of a file about all of its cylinders
+_WHOLE = ("engine", "bearings", "balance", "flywheel", "motor", "motor_selection", "transient")
 # notices that all there is to a key silences: engine.uneven
 _PERMITTED = {"uneven_intervals"}
 # what stands for a value of zero, in SI
@@ -164,13 +168,58 @@ def _scales(results: Results) -> dict[str, float]:
     return scales
 
 
-def has_effect(values: dict[str, Any], path: str, value: Any, kind: object, base: Results, folder: Path) -> bool | None:
-    """Return whether another value in a place changes a result; None if no other is possible."""
+class OneCylinder(NamedTuple):
+    """Results of one cylinder of an engine, which take a small part of the time, and the columns that both have."""
+
+    results: Results
+    columns: Sequence[str]
+
+
+def one_cylinder(values: Mapping[str, Any], base: Results, folder: Path) -> OneCylinder | None:
+    """Return one cylinder of an engine; None of other machines."""
+    if "engine" not in values:
+        return None
+    try:
+        results = computed(_without_engine(values), folder)
+    except CrankworkError:
+        return None
+    columns = [key for key, column in results.columns.items() if np.array_equal(column, base.columns.get(key))]
+    return OneCylinder(results, columns)
+
+
+def _without_engine(values: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: table for name, table in values.items() if name not in _WHOLE}
+
+
+def _moves(cylinder: OneCylinder, changed: Mapping[str, Any], folder: Path) -> bool:
+    """Return whether columns of one cylinder change by more than what an engine has of rounding."""
+    try:
+        columns = computed(_without_engine(changed), folder).columns
+    except CrankworkError:
+        return False
+    for key in cylinder.columns:
+        before, after = cylinder.results.columns[key], columns.get(key, np.zeros(1))
+        if len(after) not in (1, len(before)) or np.any(np.abs(after - before) > _SEEN * np.max(np.abs(before))):
+            return True
+    return False
+
+
+def has_effect(
+    values: dict[str, Any], path: str, others: Iterable[Any], base: Results, folder: Path, cylinder: OneCylinder | None
+) -> bool | None:
+    """Return whether one of other values in a place changes a result; None if no other is possible.
+
+    `cylinder`: results of one cylinder, which are looked at first.
+    """
     computed_any = False
-    for other in alternatives(value, kind):
+    for other in others:
         changed = copy.deepcopy(values)
         try:
             apply_override(changed, Setting("--set", path, other))
+            if cylinder is not None and path.partition(".")[0] not in _WHOLE and _moves(cylinder, changed, folder):
+                # the engine may not take this value
+                read_machine(written(changed), folder=folder)
+                return True
             results = computed(changed, folder)
         except CrankworkError:
             continue
@@ -185,6 +234,7 @@ def measured(text: str, folder: Path) -> tuple[Results, dict[str, bool], dict[st
     values = tomllib.loads(text)
     base = computed(values, folder)
     idle, assumed = told(base)
+    cylinder = one_cylinder(values, base, folder)
     found = []
     for items, is_idle in (
         ([*stated_values(values)], idle.__contains__),
@@ -194,7 +244,7 @@ def measured(text: str, folder: Path) -> tuple[Results, dict[str, bool], dict[st
         effects |= {path: True for path, *_ in items if not is_idle(path) and moves_columns(base, path)}
         for path, value, kind in items:
             if path not in effects:
-                effects[path] = has_effect(values, path, value, kind, base, folder)
+                effects[path] = has_effect(values, path, alternatives(value, kind), base, folder, cylinder)
         found.append({path: effect for path, effect in effects.items() if effect is not None})
     return base, found[0], found[1]
 

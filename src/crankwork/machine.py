@@ -61,7 +61,7 @@ class FileInput(NamedTuple):
 
 
 class FileInputs(NamedTuple):
-    """What a description states, and the defaults of what it could state beside it, by path."""
+    """What a description states, and the defaults of what else it could state, by path."""
 
     stated: Mapping[str, FileInput]
     defaults: Mapping[str, FileInput]

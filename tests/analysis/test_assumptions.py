@@ -251,3 +251,34 @@ def test_uneven_intervals_of_a_customary_order_are_told_by_its_intervals():
     assert "engine.uneven" not in idle(analyse(description))
     description["engine.offsets"] = ["4 mm", "4 mm", "4 mm", "4 mm"]
     assert idle(analyse(description))["engine.uneven"] == "even_intervals"
+
+
+def test_names_with_dots_are_those_of_parts():
+    text = """
+fixed_points = { O = ["0 mm", "0 mm"], "D.1" = ["300 mm", "0 mm"], E = ["9 mm", "0 mm"] }
+crank = { pivot = "O", pin = "A", radius = "60 mm", speed = "120 rpm" }
+[links]
+"cou.pler" = { joins = ["A", "B"], length = "250 mm", mass = "1 kg", centre = ["9 cm", "0 cm"], inertia = "1 kg*m2" }
+rocker = { joins = ["D.1", "B"], length = "180 mm" }
+"""
+    assert idle(analyse(read_machine(text))) == {"fixed_points.E[1]": "unused", "fixed_points.E[2]": "unused"}
+
+
+def test_about_which_point_an_inertia_is_matters_only_with_a_centre_of_mass_beside_the_pivot():
+    text = """
+fixed_points = { O = ["0 mm", "0 mm"], C = ["300 mm", "0 mm"] }
+[crank]
+pivot = "O"
+pin = "A"
+radius = "60 mm"
+speed = "120 rpm"
+mass = "2 kg"
+inertia = "0.01 kg*m2"
+[links]
+coupler = { joins = ["A", "B"], length = "250 mm" }
+rocker = { joins = ["C", "B"], length = "180 mm" }
+"""
+    eccentric = text.replace('mass = "2 kg"', 'mass = "2 kg"\ncentre = ["30 mm", "0 mm"]')
+    for machine in (text, eccentric):
+        assert mistold(machine, ROOT) == []
+        assert mistold(machine.replace("[links]", 'inertia_about = "centre"\n[links]'), ROOT) == []

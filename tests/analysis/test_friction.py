@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -171,3 +172,16 @@ def test_links_that_carry_nothing_are_balanced_by_nothing() -> None:
     assert np.all(np.isfinite(results["torque_with_friction"]))
     assert max(results.checks.values()) < 1e-12
     assert np.abs(results["joint_force_with_friction.Q"]).max() < 1e-9
+
+
+def test_friction_beside_teeth_is_refused_with_what_to_write() -> None:
+    toothed = (ROOT / "tests/machines/toothed-five-bar.toml").read_text("utf-8")
+    text = f'{toothed}\n[friction.pins]\nC = {{ coefficient = 0.1, radius = "10 mm" }}\n'
+    with pytest.raises(crankwork.InputError) as refused:
+        crankwork.read_machine(text)
+    (line,) = str(refused.value).splitlines()
+    assert "geared.second.pressure_angle: " in line
+    # each of the ways out that it names
+    assert crankwork.read_machine(text.replace('pressure_angle = "20 deg"\n', "")).friction
+    (written,) = re.findall(r"efficiency\.chain = \[[\d.]+\]", line)
+    assert crankwork.read_machine(f"{written}\n{toothed}").drive.efficiency == 0.95

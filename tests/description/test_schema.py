@@ -269,6 +269,9 @@ def test_a_template_states_the_same_in_every_language(name, language) -> None:
     english, other = template(name), template(name, language)
     values, others = tomllib.loads(english), tomllib.loads(other)
     assert values.pop("title") != others.pop("title")
+    if "school" in values.get("cycle", {}):
+        # which construction rounds the corners is that of the books of a language
+        assert (values["cycle"].pop("school"), others["cycle"].pop("school")) == ("ru", language)
     assert values == others
     assert read_machine(other).title
 

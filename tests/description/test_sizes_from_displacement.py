@@ -95,6 +95,9 @@ def test_mistakes_are_told(text: str) -> None:
         ('displacement = "500 cmm3"', "86 mm", ["cylinder.displacement", "gas.cycle"]),
         ('displacement = "500 cm3"', "86 nm", ["crank.stroke", "gas.cycle"]),
         ('displacement = "500 cm3", stroke_bore_ratio = 1', "86 mm", ["cylinder.displacement", "gas.cycle"]),
+        ('displacment = "500 cm3"', "86 mm", ["cylinder.displacment", "gas.cycle"]),
+        ('displacment = "500 cm3", stroke_bore_ratio = 1', "86 mm", ["cylinder.displacment", "gas.cycle"]),
+        ('displacement = "500 cm3", stroke_bore_ration = 1', "86 mm", ["cylinder.stroke_bore_ration", "gas.cycle"]),
     ],
 )
 def test_a_mistake_elsewhere_takes_no_bore_away(cylinder: str, stroke: str, mistakes: list[str]) -> None:

@@ -247,3 +247,27 @@ def test_a_description_tells_its_keys_as_a_mapping_does():
     assert d.get("crank.radius") == "50 mm"
     assert (d.get("crank.offset"), d.get("crank.offset", "nothing")) == (None, "nothing")
     assert all(key in d for key in d)
+
+
+@pytest.mark.parametrize("value", [None, object(), 3 + 4j, b"5 mm", {1}, float("nan"), [None]])
+def test_a_value_that_no_file_holds_is_refused_with_what_to_write(value):
+    description = crankwork.Description(crankwork.template("engine"))
+    before = str(description)
+    with pytest.raises(crankwork.CrankworkError, match=r'crank\.radius: must be a text with a unit.*"45 mm"'):
+        description["crank.radius"] = value
+    assert str(description) == before
+
+
+def test_tuples_and_numbers_of_numpy_are_values_of_a_file():
+    description = crankwork.Description('gas.pieces = [{ law = "constant", points = ["a", "b"] }]\nrod.ratio = 0.25')
+    description["gas.pieces[1].points"] = ("b", "c")
+    description["rod.ratio"] = np.float32(0.5)
+    description["engine.cylinders"] = np.int64(4)
+    changed = [description[key] for key in ("gas.pieces[1].points", "rod.ratio", "engine.cylinders")]
+    assert changed == [["b", "c"], 0.5, 4]
+
+
+@pytest.mark.parametrize("angle", [np.inf, np.nan])
+def test_columns_are_asked_for_at_finite_angles(engine, angle):
+    with pytest.raises(crankwork.CrankworkError, match="crank angles must be finite numbers"):
+        engine.columns_at([10.0, angle])

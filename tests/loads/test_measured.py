@@ -188,6 +188,7 @@ def _backwards(wrong: float) -> MeasuredPressure:
 
 
 REFUSED = {
+    "no samples": (_recorded(np.empty(0)), "only 0 samples; a cycle needs at least 8"),
     "too few samples": (_recorded(np.linspace(0, 720, 7)), "only 7 samples; a cycle needs at least 8"),
     "too many samples": (
         _recorded(np.linspace(0, 720, 60_001)),

@@ -151,6 +151,8 @@ def test_designs_whose_force_begins_at_other_angles_have_calculations_of_their_o
     assert not found.reason
     assert found.one_by_one <= 8
     for place in range(0, 80, 16):
-        results = crankwork.analyse(d.machine([f"{key} = {float(column[place])!r} m" for key, column in designs.items()]))
+        results = crankwork.analyse(
+            d.machine([f"{key} = {float(column[place])!r} m" for key, column in designs.items()])
+        )
         for key in keys:
             assert found.values[key][place] == pytest.approx(results.value(key), rel=1e-9)

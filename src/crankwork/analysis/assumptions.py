@@ -33,6 +33,7 @@ _TRACED = re.compile(
     r"|engine\.articulated\.\w+|cycle\.\w+"
 )
 _FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
+_ABOUT = r"(crank|geared\..+)\.inertia_about"
 _FACE = re.compile(r"\.faces\[1\]")
 _SAMPLES, _ROUNDING, _EVEN = 721, 1e-9, 1e-6
 _ROUNDED = r".*cycle\.(rise|rise_share|peak_level|blow_down)"
@@ -190,8 +191,9 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"engine\.uneven", lambda *_: False),
     (r"(cycle|chambers\..*\.cycle)\.stroke_bore_ratio", lambda _, stated, __: "cycle.power" in stated),
     (r"(cycle|chambers\..*\.cycle)\.motored", lambda results, *_: _has_misfire(results)),
-    (r"links\.[^.]+\.inertia", lambda results, stated, path: not _idle_inertia(results, stated, path)),
-    (r"sliders\..*\.inertia", lambda results, _, path: _turns(results, path.split(".")[1])),
+    (r"links\..+\.inertia", lambda results, stated, path: not _idle_inertia(results, stated, path)),
+    (r"sliders\..*\.inertia", lambda results, _, path: _turns(results, _part(path))),
+    (_ABOUT, lambda results, stated, path: not _idle_about(results, stated, path)),
     (r"loads\[\d+\]\.stroke", lambda *_: True),
     (r"loads\[\d+\]\.(curve|against)", lambda _, stated, path: f"{path.rpartition('.')[0]}.at[3]" in stated),
     (r"transient\.until", lambda *_: False),
@@ -214,6 +216,11 @@ def _default_matters(path: str, results: Results, stated: Mapping[str, FileInput
 def _has_misfire(results: Results) -> bool:
     engine = results.machine.engine
     return engine is not None and bool(engine.misfires)
+
+
+def _part(path: str) -> str:
+    """Return the name of a part of the machine, which may have dots, from the path of one of its keys."""
+    return path.partition(".")[2].rpartition(".")[0]
 
 
 def _turns(results: Results, slider: str) -> bool:
@@ -304,19 +311,25 @@ def _idle_numbering(results: Results, *_: object) -> str:
 
 def _idle_place(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
     """Return whether no part of a linkage names a fixed point or a guide."""
-    name = re.split(r"[.\[]", path)[1]
-    return "" if any(item.value == name for item in stated.values()) else "unused"
+    place = path.partition(".")[2]
+    named = (str(item.value) for item in stated.values())
+    return "" if any(place.startswith((f"{name}.", f"{name}[")) for name in named) else "unused"
 
 
 def _idle_mass(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
-    """Return whether a driving link has its mass at its pivot, where it is if no centre of mass is stated."""
-    centre = path.replace(".mass", ".centre")
-    moves = centre in stated or f"{centre}[1]" in stated or results.machine.linkage is None or _is_engine(stated)
+    """Return whether a driving link has its mass at its pivot."""
+    moves = not _idle_about(results, stated, path) or results.machine.linkage is None or _is_engine(stated)
     return "" if moves or _has_weights(results) else "at_rest"
 
 
+def _idle_about(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    """Return whether a driving link turns about its centre of mass, as it does if no other centre is stated."""
+    centre = f"{path.rpartition('.')[0]}.centre"
+    return "" if centre in stated or f"{centre}[1]" in stated else "about_centre"
+
+
 def _idle_inertia(results: Results, _: Mapping[str, FileInput], path: str) -> str:
-    angles = results.columns.get(f"link_angle.{path.split('.')[1]}", np.empty(0))
+    angles = results.columns.get(f"link_angle.{_part(path)}", np.empty(0))
     return "never_turns" if len(angles) > 2 and np.ptp(angles) <= _ROUNDING else ""
 
 
@@ -347,7 +360,8 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     # places of the links of one that is drawn turn with it
     (r"cylinder\.inclination", lambda known, *_: "" if known.machine.linkage or _has_weights(known) else "weights_off"),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
-    (r"links\.[^.]+\.(inertia|radius_of_gyration)", _idle_inertia),
+    (_ABOUT, _idle_about),
+    (r"links\..+\.(inertia|radius_of_gyration)", _idle_inertia),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),
 )

@@ -18,7 +18,10 @@ from crankwork.machine import Machine
 
 
 class _Range(NamedTuple):
-    """A range beyond which no engine is built, in SI and wider than its source, with keys of a file that decide."""
+    """A range beyond which no engine is built, in SI, with keys of a file that decide.
+
+    It is wider than the usual values in its source; without one it is a limit of this program.
+    """
 
     quantity: str
     low: float
@@ -27,10 +30,11 @@ class _Range(NamedTuple):
     keys: tuple[str, ...] = ()
 
 
+_OWN = ""
 _RESULTS = (
     _Range("mean_piston_speed", 0.0, 30.0, "heywood_1988", ("crank.speed",)),
     _Range("rod_ratio", 0.08, 0.45, "kolchin_demidov_2008", ("rod.ratio", "rod.length")),
-    _Range("gas_pressure_max", 0.0, 35e6, "heywood_1988", ("gas.points", "gas", "cycle", "cylinder.compression_ratio")),
+    _Range("gas_pressure_max", 0.0, 35e6, _OWN, ("gas.points", "gas", "cycle", "cylinder.compression_ratio")),
     _Range("speed_fluctuation", 0.0, 0.5, "khurmi_gupta_2005", ("flywheel",)),
 )
 _WANTED = _Range("speed_fluctuation", 0.0, 0.25, "khurmi_gupta_2005", ("flywheel.percent", "flywheel.fluctuation"))
@@ -41,15 +45,15 @@ _ROD = _Range("mass_per_area.of_rod", 10.0, 4000.0, "kolchin_demidov_2008", ("ro
 # of numbers as they are stated, by their key
 _STATED = {
     r"rod\.small_end_share": _Range("small_end_share", 0.1, 0.6, "kolchin_demidov_2008"),
-    r"(gas\.points\.[^.]+|(chambers\..+\.)?cycle)\.(\w+_)?pressure": _Range("gas_pressure", 1e4, 1e8, "heywood_1988"),
-    r"chambers\.(.*[._])?temperature": _Range("cylinder_temperature", 50.0, 4000.0, "urieli_berchowitz_1984"),
+    r"(gas\.points\.[^.]+|(chambers\..+\.)?cycle)\.(\w+_)?pressure": _Range("gas_pressure", 1e4, 1e8, _OWN),
+    r"chambers\.(.*[._])?temperature": _Range("cylinder_temperature", 50.0, 4000.0, _OWN),
 }
 # orders of how many cylinders are compared, and how much better another has to be
 _MOST_ORDERS, _BETTER, _ZERO = 6, 2.0, 1e-9
 
 
 def implausible(results: Results) -> Iterator[Notice]:
-    """Yield a notice for each value far outside normal design (kolchin_demidov_2008, heywood_1988, taylor_1985)."""
+    """Yield a notice for each value far outside normal design."""
     machine = results.machine
     file = machine.inputs() if machine.inputs is not None else None
     is_gauge = file is None or "gas.pressures" not in file.stated or file.stated["gas.pressures"].value == "gauge"
@@ -79,9 +83,8 @@ def _outside(usual: _Range, value: float | None, machine: Machine) -> Iterator[N
     # of many points no single one is to blame
     path = next((key for key in usual.keys if any(path.startswith(key) for path in machine.stated)), usual.keys[0])
     limits = {"low": usual.low, "high": usual.high}
-    yield Notice(
-        "implausible", {"quantity": usual.quantity, "value": value, **limits, "path": path, "source": usual.source}
-    )
+    code = "implausible" if usual.source else "implausible_own"
+    yield Notice(code, {"quantity": usual.quantity, "value": value, **limits, "path": path, "source": usual.source})
 
 
 def _doubtful_order(layout: Layout) -> Iterator[Notice]:

@@ -248,7 +248,14 @@ class Results(Mapping[str, Array | float]):
         -------
         dict of str to array, shape (m,)
             Columns by key. [SI]
+
+        Raises
+        ------
+        CrankworkError
+            If angles are no finite numbers.
         """
+        if not isinstance(angles, CrankGrid) and not np.all(np.isfinite(np.asarray(angles, dtype=float))):
+            raise CrankworkError(ErrorMessage("angles_finite"))
         grid = angles if isinstance(angles, CrankGrid) else CrankGrid.from_degrees(angles)
         if keys is not None and not RENAMED.keys().isdisjoint(keys := list(keys)):
             renamed = self.columns_at(grid, [self.current(key) for key in keys])

@@ -28,7 +28,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.mechanism.joints import names_of_pivots
 from crankwork.shaft.collocation import gauss
 from crankwork.shaft.compiled_integrator import TransientReplay
-from crankwork.shaft.transient import RATE, Direction, Integrator, Trajectory
+from crankwork.shaft.transient import MOST_STEPS, RATE, Direction, Integrator, Trajectory
 
 # tolerance of the energy balance across dead positions of the crank, where its angle is ill-conditioned
 _ACROSS = 1e-6
@@ -36,6 +36,10 @@ _ROWS = 200
 _CHECKED_STEPS = 20_000
 _STEADY = 1e-10
 _SAME_CYCLES = 2
+# cycles over which a trend of the speed is looked for, and by which part its limit, or what a cycle adds, may change
+_TREND, _SAME_TREND = 12, 1e-3
+# how many times the greatest number of steps are certainly too many
+_FAR = 2
 # after so many steps, the least part of the time that has to be done for more steps to lead to its end
 _TRIED_STEPS, _LEAST_DONE = 1000, 0.01
 _AT_PERIOD = 1e-9
@@ -43,6 +47,8 @@ _ROUNDED = 1e-6
 # least rate of the crank by the coordinate: with less, the coordinate is far faster than the crank
 _ALL_BUT_DEAD = 1e-3
 _NODES, _WEIGHTS, *_ = gauss(8)
+# events after which more time changes nothing
+_ENDS = frozenset({"comes_to_rest", "steady", "never_steady", "slowly_steady", "many_steps"})
 
 
 class TransientResults(NamedTuple):
@@ -95,7 +101,7 @@ def _followed(
     cycles, integrator = _Cycles(model, progress), Integrator(model.system, start, wanted.speed / rate)
     trajectory = integrator.until(wanted.time, watched=wanted.speeds, each=cycles)
     if not trajectory.steps:
-        return TransientResults({}, {}, {}, tuple(_notices(model, trajectory)), {})
+        return TransientResults({}, {}, {}, tuple(_notices(model, trajectory, 0.0)), {})
     checks = {"energy_balance": _missing(model, trajectory)}
     if trajectory.events and trajectory.events[-1].word == "steady":
         checks |= cycles.against(summary)
@@ -113,7 +119,7 @@ def _followed(
         {key: TracedValue(node, key) for key, node in zip(keys, nodes, strict=True)},
         {"transient": _history(model, trajectory), **_events(chart, trajectory)},
         checks,
-        (*_notices(model, trajectory), *_not_yet(model, trajectory)),
+        (*_notices(model, trajectory, cycles.steady_after), *_not_yet(model, trajectory)),
         {"energy_balance": _ACROSS} if chart.pieces[0].turns_back else {},
     )
 
@@ -128,12 +134,13 @@ class _Cycles:
         # the steady-state solution has no friction
         self._has_friction = bool(model.machine.friction)
         self.times, self.rates = [0.0], [model.wanted.speed]
+        self.steady_after, self._has_motor = 0.0, model.wanted.motor
 
     def __call__(self, run: Integrator) -> bool:
         """Return whether the simulation may end."""
         if self._progress is not None:
             self._progress(run.time / self._time)
-        if self._until == "rest":
+        if self._until == "rest" or run.is_over:
             return run.is_over
         if self._until == "time" and len(run.trajectory.steps) >= _TRIED_STEPS and run.time < _LEAST_DONE * self._time:
             run.record_event("many_steps")
@@ -147,10 +154,38 @@ class _Cycles:
             self.times.append(time)
             self.rates.append(float(step.at(np.array(time))[1]))
         last = self.rates[-_SAME_CYCLES - 1 :]
-        if len(last) <= _SAME_CYCLES or np.ptp(last) > _STEADY * abs(last[-1]):
-            return False
-        run.record_event("steady")
-        return True
+        if len(last) > _SAME_CYCLES and np.ptp(last) <= _STEADY * abs(last[-1]):
+            run.record_event("steady")
+            return True
+        self.steady_after, cycles = self._expected()
+        steps = len(run.trajectory.steps) * (1 + cycles / len(self.rates))
+        is_late = self.steady_after > self._time or steps > _FAR * MOST_STEPS
+        if is_late:
+            run.record_event("never_steady" if math.isinf(self.steady_after) else "slowly_steady")
+        return is_late
+
+    def _expected(self) -> tuple[float, float]:
+        """Return when the last cycles let expect that one repeats the one before, and after how many more. [s], [-]
+
+        Zero where they tell nothing, infinite where each adds the same to the square of the rate.
+        """
+        rates = np.array(self.rates[-_TREND:])
+        if rates.size < _TREND:
+            return 0.0, 0.0
+        added, change = np.diff(rates**2), np.diff(rates)
+        if np.ptp(added) <= _SAME_TREND**2 * abs(added[-1]):
+            return math.inf, math.inf
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = change[1:] / change[:-1]
+            left = change[1:] * share / (1 - share)
+        limits = rates[2:] + left
+        # the torque of a motor may fall and rise again; without one the speed nears its limit ever more slowly
+        is_known = np.ptp(limits) <= _SAME_TREND * abs(left[-1]) or (not self._has_motor and share[-1] > share[0])
+        if not (is_known and np.all((share > 0) & (share < 1))):
+            return 0.0, 0.0
+        cycles = max(0.0, math.log(_STEADY * abs(limits[-1] / change[-1])) / math.log(share[-1]))
+        slowest = min(1.0, abs(rates[-1] / limits[-1]))
+        return self.times[-1] + cycles * slowest * (self.times[-1] - self.times[-2]), cycles
 
     def against(self, summary: Mapping[str, TracedValue]) -> dict[str, float]:
         """Return the error of the mean speed of the last cycle against the steady-state solution. [-]"""
@@ -301,8 +336,11 @@ def _lost(model: TransientModel, piece: PathSegment, motion: Motion, rates: tupl
         return friction_forces(running, model.machine.friction).power_loss
 
 
-def _notices(model: TransientModel, trajectory: Trajectory) -> Iterator[Notice]:
-    """Yield notices of a start that fails, and of events: the first time of each kind."""
+def _notices(model: TransientModel, trajectory: Trajectory, steady_after: float) -> Iterator[Notice]:
+    """Yield notices of a start that fails, and of events: the first time of each kind.
+
+    `steady_after`: the time after which it is expected to run steadily. [s]
+    """
     missing = _missing_torque(model)
     stays = bool(trajectory.events) and trajectory.events[0].time == 0 and trajectory.events[0].word == "comes_to_rest"
     if missing > 0:
@@ -320,15 +358,15 @@ def _notices(model: TransientModel, trajectory: Trajectory) -> Iterator[Notice]:
             if missing <= 0:
                 yield Notice("transient_equilibrium", {"angle": angle})
         else:
-            limits = {"write": event.time, "steps": len(trajectory.steps)}
+            expected = steady_after if word == "slowly_steady" else event.time
+            limits = {"write": expected, "steps": len(trajectory.steps)}
             code = f"transient_{word}"
             yield Notice(code, {"time": event.time, "angle": angle, "speed": speed, "count": count, **limits})
 
 
 def _not_yet(model: TransientModel, trajectory: Trajectory) -> Iterator[Notice]:
     """Yield a notice if the time was up before the awaited event."""
-    waited = {"rest": "comes_to_rest", "steady": "steady"}.get(model.wanted.until)
-    if waited is not None and all(event.word not in (waited, "many_steps") for event in trajectory.events):
+    if model.wanted.until != "time" and not _ENDS.intersection(event.word for event in trajectory.events):
         yield Notice(f"transient_not_{model.wanted.until}", {"time": trajectory.end})
 
 

@@ -92,13 +92,17 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
 def _with_sizes(values: Values, pi: float, reader: Reader) -> Values:
     """Return the values with bore and crank radius that follow from a displacement or from stroke over bore."""
     crank, cylinder = values["crank"], values["cylinder"]
+    if reader.has_errors(*(f"cylinder.{key}" for key in SIZES)):
+        # one of them is misspelt
+        reader.suspect("cylinder.bore")
+        return values
     if SIZES.isdisjoint(cylinder):
         return values
     volume, ratio, bore = (cylinder.si(key) for key in ("displacement", "stroke_bore_ratio", "bore"))
     stroke = 2 * crank.si("radius") if "radius" in crank else crank.si("stroke")
     stated = [f"cylinder.{key}" for key in cylinder if key in SIZES]
-    key, sizes = stated[0], (*stated, "cylinder.bore", "crank.radius", "crank.stroke")
-    if reader.has_errors(*sizes):
+    key = stated[0]
+    if reader.has_errors("cylinder.bore", "crank.radius", "crank.stroke"):
         reader.suspect("cylinder.bore")
         return values
     count = sum(size is not None for size in (volume, ratio, bore, stroke))

@@ -105,6 +105,8 @@ def calculated_pressure(
     """Return the pressure of a calculated cycle, or None after complaints; `path`: of its table."""
     if table["kind"] in _ASSIGNED and reader.has_errors(*(f"{path}.{key}" for key in CYCLE.keys)):
         return None
+    if size.bore is None and reader.has_errors("cylinder.bore"):
+        return None
     try:
         return _built(table, size, pi)
     except CrankworkError as error:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import copy
+import math
+import numbers
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -111,7 +113,7 @@ class Description:
     def replace(self, changes: Mapping[str, Any]) -> None:
         """Set several values at once: all, or none after an error."""
         text, values = self._text, copy.deepcopy(self._values)
-        for key, value in changes.items():
+        for key, value in ((key, _plain(key, value)) for key, value in changes.items()):
             gives_way = apply_override(values, Setting("key", key, value))
             text = with_value(text, key, value, gives_way)
             if parse(text, self.name) != values:
@@ -198,3 +200,16 @@ def _keys(values: Any, path: str = "") -> Iterator[str]:  # noqa: ANN401 - what 
             yield from _keys(value, f"{path}[{number}]")
     else:
         yield path
+
+
+def _plain(key: str, value: Any) -> Any:  # noqa: ANN401 - what a program may set
+    """Return a value as a file holds it: text, number, list or table."""
+    if isinstance(value, Mapping):
+        return {str(name): _plain(key, item) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(key, item) for item in value]
+    if isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value):
+        return int(value) if isinstance(value, numbers.Integral) else float(value)
+    if isinstance(value, str | bool):
+        return value
+    raise CrankworkError(ErrorMessage("value_kind", key=str(key)[:60]))

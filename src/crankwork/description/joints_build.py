@@ -96,8 +96,9 @@ def check_friction(machine: Machine, reader: Reader) -> None:
         reader.add_error("friction", ErrorMessage("friction_redundant", name=machine.redundant[0].member.name))
     if machine.mechanism.passages:
         reader.add_error("friction", ErrorMessage("friction_passages"))
-    if isinstance(crank, Crank) and any(geared_crank.pressure_angle for geared_crank in crank.geared):
-        reader.add_error("friction", ErrorMessage("friction_teeth"))
+    toothed = [geared.link for geared in crank.geared if geared.pressure_angle] if isinstance(crank, Crank) else []
+    if toothed:
+        reader.add_error(f"geared.{toothed[0]}.pressure_angle", ErrorMessage("friction_teeth"))
 
 
 def build_bearings(values: Values, mechanism: Mechanism, reader: Reader, *, turns: bool) -> Bearings:

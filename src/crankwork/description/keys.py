@@ -96,7 +96,7 @@ _FRICTION = TableSpec("friction", {
 })  # fmt: skip
 
 EFFICIENCY = TableSpec("efficiency", {
-    "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True),
+    "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True, example="[0.95, 0.9]"),
     "decimals": KeySpec(Number(1, 6, whole=True)),
     "losses": KeySpec(Choice(("drive", "machine"))),
 })  # fmt: skip
@@ -321,7 +321,7 @@ _RIM = TableSpec("rim", {
     "ratio": KeySpec(Number(1e-3, 1e3), only={"density": ()}),
     "width": KeySpec(LENGTH, instead_of=("ratio",), only={"density": ()}),
     "thickness": KeySpec(LENGTH, instead_of=("ratio",), only={"density": ()}),
-    "share": KeySpec(Number(0.0, 1.0, above=True), default=1.0),
+    "share": KeySpec(Number(1e-6, 1.0), default=1.0),
 })  # fmt: skip
 
 FLYWHEEL = TableSpec("flywheel", {
@@ -648,7 +648,7 @@ MACHINE_FILE = TableSpec("file", {
 _SIZED = with_defaults(MACHINE_FILE, "crank", _CRANK, radius=None)
 SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
 
-# for a calculation of a working cycle alone, which only the motion beside it needs a rod for
+# for a calculation of a working cycle alone; only its motion needs a rod
 CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for keys in (MACHINE_FILE, SIZED_FILE))
 
 

@@ -49,6 +49,7 @@ from crankwork.loads.indicator import DiagramError
 from crankwork.locale import LANGUAGES, ErrorMessage, Language, translate
 from crankwork.resources import read_resource, resource_names
 from crankwork.units import TO_LATIN
+from crankwork.working_cycle.schools import SCHOOLS
 
 if TYPE_CHECKING:
     from crankwork.machine import FileInputs, Machine
@@ -65,6 +66,7 @@ _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
 # a text of a template by its key, and a comment that consists of it
 _WORDS = re.compile(r"\{([a-z][\w.]*)\}")
+_SCHOOL = re.compile(r'^(school = )"\w+"', re.MULTILINE)
 _COMMENT = re.compile(rf"^# {_WORDS.pattern}$", re.MULTILINE)
 # decimal commas in a list, without spaces after them, and more mistakes of syntax than are looked for
 _PAIRS = re.compile(r"=\s*(\[\s*(?:\d+,\d+,\s+)*0,\d+(?:,\s+\d+,\d+)*\s*\])")
@@ -167,7 +169,7 @@ def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
 
 
 def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
-    """Return the keys that can never have an effect beside the others, with the reason; none in files of format 1."""
+    """Return the keys that can never have an effect with the others, with the reason; none in files of format 1."""
     if values["format"] == 1:
         return {}
     if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE):
@@ -299,10 +301,13 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     is_started = "transient" in values and isinstance(crank, dict) and "speed" not in crank
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else STARTED_FILE if is_started else LINKAGE_FILE
-    cycle, is_loaded = values.get("cycle"), not LOADING.keys().isdisjoint(values)
+    cycle, cylinder, is_loaded = values.get("cycle"), values.get("cylinder"), not LOADING.keys().isdisjoint(values)
     is_calculated = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
     is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
-    if (isinstance(cycle, dict) and "power" in cycle) or not SIZES.isdisjoint(values.get("cylinder") or ()):
+    stated = cylinder if isinstance(cylinder, dict) else ()
+    # a misspelt displacement counts too: the bore is not missing then
+    has_sizes = not SIZES.isdisjoint(name if name in SIZES else nearest_name(name, SIZES) for name in stated)
+    if (isinstance(cycle, dict) and "power" in cycle) or has_sizes:
         return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
     if is_alone:
         return engine_files.CYCLE_FILE
@@ -594,7 +599,7 @@ def template_names() -> list[str]:
 
 
 def template(name: str, language: Language = "en") -> str:
-    """Return the commented machine file to start from, its title and comments in a language.
+    """Return the commented machine file to start from: title and comments in a language, the school that of its books.
 
     Raises
     ------
@@ -615,7 +620,8 @@ def template(name: str, language: Language = "en") -> str:
     def comment(match: re.Match[str]) -> str:
         return textwrap.fill(text_of(match), 116, initial_indent="# ", subsequent_indent="# ", break_on_hyphens=False)
 
-    return _WORDS.sub(text_of, _COMMENT.sub(comment, read_resource(*TEMPLATES.split("/"), f"{name}.toml")))
+    text = _WORDS.sub(text_of, _COMMENT.sub(comment, read_resource(*TEMPLATES.split("/"), f"{name}.toml")))
+    return _SCHOOL.sub(f'\\1"{language}"', text) if language in SCHOOLS else text
 
 
 def template_title(name: str, language: Language = "en") -> str:

@@ -364,7 +364,8 @@ class TableSpec(NamedTuple):
         what = "table" if isinstance(value, dict) else "key"
         latin = name.translate(units.TO_LATIN)
         if (letters := look_alikes(name)) and latin in self.keys:
-            reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=latin)
+            meant = f"{path.removesuffix(name)}{latin}"
+            reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=meant)
             return
         nearest = nearest_name(name, tuple(self.keys))
         if nearest:

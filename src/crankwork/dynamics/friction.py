@@ -304,7 +304,7 @@ def tilting_force(M_n: Value, N_f: Value, x_p: Value, l_p: Value) -> Value:
 
 @formula("friction_couple", "artobolevsky_1988, ch. 11")
 def friction_couple(F_fr: Value, y_p: Value) -> Value:
-    """Moment of the friction of a guide about a pin beside the line of the guide."""
+    """Moment of the friction of a guide about a pin that is not on the line of the guide."""
     return -F_fr * y_p
 
 

@@ -386,7 +386,7 @@ class CycleInterpolant:
         """Return which polynomials have a peak that is high up, and the places of peaks, from -1 to 1."""
         inner = samples[:, 1:-1]
         peak, place = np.nonzero((inner >= samples[:, :-2]) & (inner >= samples[:, 2:]) & is_high[:, 1:-1])
-        # a peak may hide between an edge and the first look beside it: there the column rises away from the edge
+        # a peak may hide between an edge and the first look next to it: there the column rises away from the edge
         slope = coefficients @ _SLOPE_AT_ENDS.T
         low = np.flatnonzero((samples[:, 0] >= samples[:, 1]) & (slope[:, 0] > 0) & is_high[:, 0])
         high = np.flatnonzero((samples[:, -1] >= samples[:, -2]) & (slope[:, 1] < 0) & is_high[:, -1])

@@ -91,7 +91,7 @@ class Program:
 
         varying = (column for column in columns.values() if column.varies)
         order = [column.node for column in in_order(varying, into=varying_operands)]
-        # what pieces lead over a change point is nought by nought there and used beside it only; a link that stands
+        # what pieces lead over a change point is 0/0 there and used on both sides of it only; a link that stands
         # still has no instant centre
         self._invalid: Literal["ignore", "warn"] = "ignore" if any(map(_may_have_no_value, order)) else "warn"
         for cycle in sorted({node.cycle for node in late}):

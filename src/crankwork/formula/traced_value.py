@@ -152,7 +152,7 @@ class Conditional(Node):
 class Piecewise(Node):
     """Laws that follow one another over the crank angle; each owns its end and not its start. [deg]
 
-    A law is a formula of columns that stand beside the pieces, a table, or a value. `knots` are further angles where
+    A law is a formula of columns other than the pieces, a table, or a value. `knots` are further angles where
     the column is not smooth. An end may be a known. `general_form` gives the column as an expression valid for all
     inputs, where laws are tables of numbers.
     """

@@ -224,7 +224,7 @@ def _end_row(matrix: Array, right: Array, end: int, rate: float | None, inwards:
     right[end] = ((first + 2 * span) * more[0] * slope + first**2 * next_slopes[0]) / (span * more[0])
 
 
-# share of a segment by which rates are taken beside its ends, and their difference that is no jump, of the largest
+# share of a segment by which its rates are taken inside its ends, and their difference that is no jump, of the largest
 _INSIDE, _SAME_RATE = 1e-8, 1e-5
 _TRIED, _HALVINGS = np.linspace(0.0, 1.0, 2001), 52
 # largest difference of a rate from the difference quotient, relative to the largest rate

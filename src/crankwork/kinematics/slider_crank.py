@@ -41,8 +41,8 @@ def rod_cosine(sin_beta: Value, r: Value, l: Value, e: Value, less_sin_phi: Valu
 
     Notes
     -----
-    cos^2 = (1 - sin)(1 + sin), each factor as what is left of the rod length beside crank and offset
-    plus r (1 -+ sin phi). Neither cancels when the rod is hardly longer than crank and offset.
+    cos^2 = (1 - sin)(1 + sin), each factor as the rod length less crank and offset, plus
+    r (1 -+ sin phi). Neither cancels when the rod is hardly longer than crank and offset.
     """
     clearance = l - r
     lost = (l - clearance) - r

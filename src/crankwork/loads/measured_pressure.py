@@ -101,7 +101,7 @@ def recorded_cycles(
     `path`: where a description states them.
     """
     key = f"{path}.measured"
-    _check_size(measured, measured.pressure.reshape(len(measured.degrees), -1), key)
+    _check_size(measured, key)
     running = _running_on(measured, cycle, key)
     _check_angles(running, cycle, key)
     degrees = running.degrees
@@ -130,9 +130,10 @@ def _of_column(degrees: Array, pressure: Array, cycles: tuple[float, int], offse
         yield hermite(degrees, pressure, slopes, start + number * cycle + offsets)
 
 
-def _check_size(measured: MeasuredPressure, columns: Array, key: str) -> None:
+def _check_size(measured: MeasuredPressure, key: str) -> None:
     if len(measured.degrees) < FEWEST:
         raise DiagramError(key, ErrorMessage("samples_few", count=len(measured.degrees)))
+    columns = measured.pressure.reshape(len(measured.degrees), -1)
     worst = int(np.argmax(np.max(np.abs(columns), axis=1)))
     largest = float(np.max(np.abs(columns[worst])))
     if largest > _HIGHEST:

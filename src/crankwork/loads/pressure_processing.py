@@ -161,7 +161,7 @@ def _other_strokes(
     mirrored = (-degrees[::-1], pressure[::-1])
     (late, more, is_known), (_, back, is_known_back) = placed(samples), placed(mirrored)
     is_near, gained = abs(late) <= near, work(mirrored, back)
-    # one that is driven takes little work beside its peak
+    # one that is driven takes little work for its peak
     is_against = is_slow if sign < 0 else work(samples, more) < -_DRIVEN < gained
     is_against |= sign > 0 and is_known_back and not is_known and gained > _DRIVEN
     if is_near and not is_against and work(samples, 0.0) >= -_DRIVEN:

@@ -172,7 +172,7 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
 
 
 def _of_piston(results: Results, angle: float, force_angle: float | None) -> Iterator[Group]:
-    """Yield the groups of lines of a piston, and of the cylinders beside it."""
+    """Yield the groups of lines of a piston, and of the other cylinders."""
     machine, trace = results.machine, results.trace
     force_angle = machine.cycle - _TURN + angle if force_angle is None else force_angle
     moving, loaded = results.moment(angle), results.moment(force_angle)

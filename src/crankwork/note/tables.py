@@ -22,9 +22,9 @@ from crankwork.report.display import displayed, key_unit, label, row_name
 
 # rows that fit on a page, and parts and columns of a table that stand side by side
 _LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10
-# columns of numbers beside position and crank angle that fit on a page
+# columns of numbers that fit on a page together with position and crank angle
 _MOST = 9
-# angles that are the same [deg], and what is rounding beside the largest value of a column
+# angles that are the same [deg], and what is rounding, as a share of the largest value of a column
 _NEAR = 1e-9
 _NOISE = 1e-9
 # rows and steps of a short table

@@ -61,7 +61,7 @@ _STEP, _MOST = 1.0, 2000
 _LONG_CYCLE = 720.0
 _COLOURS = ("#000000", "#b03030", "#2f5fa8", "#3a7d44", "#8a5a9c", "#a87b1f", "#4d4d4d")
 _UPPER, _LOWER, _BETWEEN = 110.0, 62.0, 12.0
-# what a page of a note holds of it beside its caption, without axis and edges [pt]
+# what a page of a note holds of it together with its caption, without axis and edges [pt]
 _TALLEST_NOTE = 540.0
 # what a figure shows: of each row the first kind that there is
 _DRAWN = (
@@ -143,7 +143,7 @@ def _draw(graph: Graph, abscissas: Array, quantities: Sequence[Quantity], values
     if len(values) > 1 or np.ptp(known) <= _SAME * np.max(np.abs(known)):
         return
     for name, where in (("max", int(np.argmax(known))), ("min", int(np.argmin(known)))):
-        # a value that is zero beside the largest is rounding
+        # a value that is very small against the largest is rounding
         value = float(known[where]) if abs(known[where]) > _ROUNDING * np.max(np.abs(known)) else 0.0
         mark_point(graph, name, float(abscissas[where]), value, graph.tick_text(value))
 

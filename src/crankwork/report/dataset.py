@@ -84,7 +84,7 @@ class _Variables:
         return xr.merge(parts, join="outer", compat="no_conflicts")
 
     def _variable(self, name: str, owned: Mapping[str, tuple[tuple[str, ...], Array]]) -> xr.Dataset:
-        """Return one variable, with a dimension of owners if it has those; what has none beside them keeps its name."""
+        """Return one variable, with a dimension of owners if it has those; one without owners keeps its name."""
         import xarray as xr  # noqa: PLC0415 - an optional part
 
         attributes, arrays = self._attributes[name], dict[str, Any]()

@@ -202,7 +202,7 @@ def gas_exchange(engine: Drawn, paper: Canvas, box: ChartBox, volume: Array, pre
     level = float(graph.down(ambient)) - 3
     small_text(paper, box.left + box.width, level, engine.symbol("ambient_pressure"), "end")
     if current_layout().is_sheet:
-        # beside it, as that of the diagrams is another
+        # at the graph, as the scale of the diagrams is another
         value = float(f"{(graph.y[1] - graph.y[0]) / box.height * points_per_mm():.5g}")
         sign, unit = engine.symbol("diagram_pressure").strip("$"), engine.unit("diagram_pressure")
         text = f"{math_symbol(f'μ_{sign}')} = {engine.number(value)} {unit}/{unit_name('mm', engine.language)}"

@@ -141,7 +141,7 @@ def settled(edges, powers, law, start, rate, h, a):  # type: ignore[no-untyped-d
             v[i] = rate + h * dot(INTEGRATION[i], a)
         farthest_q, fastest, count = farthest(q, start), farthest(v, 0.0), POINTS
         if iteration % 6 == 0:
-            # once more beside them, for the slopes that steer Newton's method
+            # once more at places near them, for the slopes that steer Newton's method
             by_q, by_v = 1e-7 * max(farthest_q, 1e-3 * farthest(q, 0.0), 1e-9), 1e-7 * max(fastest, 1e-9)
             for i in range(POINTS):
                 q[POINTS + i], v[POINTS + i] = q[i] + by_q, v[i]
@@ -202,7 +202,7 @@ def left_out(a, h, fast, size):  # type: ignore[no-untyped-def]  # noqa: ANN001,
 def take_steps(edges, powers, law, limits, direction, sizes, state, kept):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201, PLR0913
     """Take steps while nothing may happen; return how many.
 
-    `limits`: of the coordinate; `sizes`: end of the time, and the coordinate beside which a step may leave something
+    `limits`: of the coordinate; `sizes`: end of the time, and the coordinate, of which a step may leave a small part
     out; `state`: time, coordinate, rate, whole periods, length to try, largest rate, length of the step before or zero,
     and its accelerations; `kept`: of each step time, coordinate, rate, length, periods and accelerations.
     """

@@ -105,7 +105,7 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class TorqueDiagram:
-    """A torque over its period: a constant, and what is beside it. Of loops, or an excess, the energies are known."""
+    """A torque over its period: a constant, and what it differs by. Of loops, or an excess, the energies are known."""
 
     period: float  # [rad]
     constant: float = 0.0  # [N m]

@@ -21,7 +21,7 @@ from crankwork.shaft.piecewise_fit import PiecewiseFit
 Direction = Literal[1, -1]
 EventKind = Literal[
     "turns_back", "comes_to_rest", "stop", "reaches_speed", "dead_position", "change_point", "end_of_way",
-    "steady", "interrupted", "many_steps", "lost",
+    "steady", "never_steady", "slowly_steady", "interrupted", "many_steps", "lost",
 ]  # fmt: skip
 
 # rows of the quantities of a machine that are its own, and which of them is the rate of the crank

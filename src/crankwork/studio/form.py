@@ -357,7 +357,7 @@ def _friction(values: Mapping[str, Any], size: float, unit: str) -> Iterator[tup
     sliders = values.get("sliders", {})
     ends = [name for name in pins if name and _is_joint(values, name)]
     if "efficiency" in values and "losses" not in values["efficiency"]:
-        # friction counts beside it
+        # friction counts in addition to it
         yield "efficiency.losses", "drive"
     yield "friction.pins", {name: {"coefficient": 0.1, "radius": _length(size / 10, unit)} for name in ends}
     if sliders:

@@ -248,7 +248,7 @@ def compared_table(data: Positions, scales: Scales, rows: Sequence[int]) -> Draw
         exact = [float(data.columns[f"{key}.{name}"][position]) for position, name in lines]
         ends = [_read(value, scales.of(sign, position)) for value, (position, _) in zip(exact, lines, strict=True)]
         plans = [end * scales.of(sign, position) for end, (position, _) in zip(ends, lines, strict=True)]
-        # values that are zero beside the others have no relative difference
+        # values that are very small against the others have no relative difference
         least = _ZERO_TOLERANCE * max(exact, default=0.0)
         off = [100 * (drawn - calculated) / calculated if calculated > least else math.nan
                for drawn, calculated in zip(plans, exact, strict=True)]  # fmt: skip
