@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.note.document import Block, Citation, Reference, Runs
+from crankwork.note.document import Block, Citation, Reference, Runs, Table
 from crankwork.note.material import Material
-from crankwork.note.parts import At, Head, Lines, Places, Rows, Section, Shown, Text, When, every, full, has, turning
+from crankwork.note.parts import At, Head, Lines, Places, Section, Shown, Text, When, every, full, has, turning
+from crankwork.note.tables import listing_table
 from crankwork.note.wording import in_display_unit, named
 from crankwork.quantities.key import key_of
 
@@ -34,10 +35,21 @@ def _orders(material: Material) -> Iterator[Block]:
     yield words.table("linkage_orders", titles, rows, "c" + "r" * len(kinds), "t:orders")
 
 
+def _worked(material: Material) -> list[Block]:
+    """Return the equations of the orders; in a short one neither moments that vanish nor the mass that rotates."""
+    left = () if material.full else ("rotating_mass", *(() if material.has_free_moments else ("free_moment",)))
+    return material.equations("balance", *(kind for kind in _OF_ORDERS if kind not in left))
+
+
+def _by_order(material: Material) -> Table | None:
+    """Return the free forces of each order, and the moments where there are any."""
+    return listing_table(material, "balance", "balance" if material.has_free_moments else "balance_forces")
+
+
 SECTIONS = (
     Section("balance", (
-        Head("balance", sinks=True), Text("balance"), Lines("balance", _OF_ORDERS),
-        Shown(("balance_orders", "balance_ellipses"), (Rows("balance", "balance"),)),
+        Head("balance", sinks=True), Text("balance"), _worked,
+        Shown(("balance_orders", "balance_ellipses"), (_by_order,)),
     ), has("piston_displacement", "balance")),
     Section("balance", (
         Head("linkage_balance"), Text("shaking", {"source": Citation(_BALANCE)}), At("shaking"), Lines("shaking"),
