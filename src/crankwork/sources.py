@@ -15,7 +15,8 @@ _FIELD = re.compile(r"^  (?P<name>\w+) = \{(?P<value>.*)\},$", re.MULTILINE)
 _CYRILLIC, _VIETNAMESE = re.compile("[а-яё]"), re.compile("[ăđơưạ-ỹ]")
 
 # the same matter in the books of the reader's school: by language, for a quantity or for all that is taken from a place
-_MOTION, _BALANCE = ("piston_velocity", "piston_acceleration"), ("order_inertia_force", "free_force")
+_MOTION, _WORK = ("piston_velocity", "piston_acceleration"), ("work_per_cycle", "energy_fluctuation")
+_BALANCE = ("order_inertia_force", "free_force", "counterweight_moment")
 _SCHOOLS: Mapping[str, Mapping[str, str]] = MappingProxyType({
     "en": {
         "kolchin_demidov_2008, ch. 5": "heywood_1988, ch. 2",
@@ -27,18 +28,16 @@ _SCHOOLS: Mapping[str, Mapping[str, str]] = MappingProxyType({
     },
     "ru": {
         **dict.fromkeys(_MOTION, "kolchin_demidov_2008, ch. 6"),
-        **dict.fromkeys((*_BALANCE, "counterweight_moment"), "kolchin_demidov_2008, ch. 8"),
-        "work_per_cycle": "artobolevsky_1988, ch. 16",
-        "energy_fluctuation": "artobolevsky_1988, ch. 16",
+        **dict.fromkeys(_BALANCE, "kolchin_demidov_2008, ch. 8"),
+        **dict.fromkeys(_WORK, "artobolevsky_1988, ch. 16"),
     },
     "vi": {
         "kolchin_demidov_2008, ch. 3": "nguyen_tat_tien_2000",
         "kolchin_demidov_2008, ch. 4": "nguyen_tat_tien_2000",
         "lukanin_shatrov_2007, ch. 1": "kolchin_demidov_2008, ch. 7",
         **dict.fromkeys(_MOTION, "kolchin_demidov_2008, ch. 6"),
-        **dict.fromkeys((*_BALANCE, "counterweight_moment"), "kolchin_demidov_2008, ch. 8"),
-        "work_per_cycle": "artobolevsky_1988, ch. 16",
-        "energy_fluctuation": "artobolevsky_1988, ch. 16",
+        **dict.fromkeys(_BALANCE, "kolchin_demidov_2008, ch. 8"),
+        **dict.fromkeys(_WORK, "artobolevsky_1988, ch. 16"),
     },
 })  # fmt: skip
 

@@ -187,7 +187,8 @@ def expected(name: str, kind: str, *, per_area: bool) -> list[tuple[float, list[
             told += [(shown(part, float(values[0])), []) for part, values in parts.items()]
     turn = np.arange(0.0, float(found.grid.degrees[-1]), STEP)
     if kind == "crankpin_polar":
-        load = found.columns_at(turn, (own_key(name, "crankpin_load"),))
+        # finer, as the load jumps
+        load = found.columns_at(np.arange(0.0, turn[-1], STEP / 8), (own_key(name, "crankpin_load"),))
         told.append((shown("crankpin_load", float(np.mean(next(iter(load.values()))))), []))
     if kind == "total_torque":
         mean = float(np.mean(found.columns_at(turn, ("total_torque",))["total_torque"]))

@@ -116,12 +116,9 @@ def _oil_holes(material: Material) -> Iterator[Block]:
 
 
 _PIN: tuple[Part, ...] = (
-    Text("crankpin"),
-    When(every(lacks(full), _is_same), (Text("big_end_same"),)),
-    _articulated,
-    At("bearings"),
+    Text("crankpin"), When(every(lacks(full), _is_same), (Text("big_end_same"),)), _articulated, At("bearings"),
     Lines("bearings", _ON_CRANKPIN),
-)
+)  # fmt: skip
 _STATED = Lines("bearing_loads", _STATISTICS, intro="loads", first=True)
 _OF_ROD = Lines("bearings", _ON_ROD)
 _LOADS, _OF_WEAR = Rows("bearing_loads", "loads"), Rows("crankpin_wear", "crankpin_wear")

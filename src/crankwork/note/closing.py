@@ -12,19 +12,7 @@ from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
 from crankwork.note import balance, bearings
 from crankwork.note.data import GEAR, cycle_keys
-from crankwork.note.document import (
-    Bibliography,
-    Block,
-    Cell,
-    Figure,
-    ItemList,
-    Math,
-    Paragraph,
-    Reference,
-    Run,
-    Runs,
-    Table,
-)
+from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Section, Shown, drawn, every, full, has, written
@@ -145,10 +133,8 @@ def _checks(material: Material) -> Iterator[Block]:
     largest_errors = errors(material)
     if material.has_piston and not material.full and not results.unmet:
         yield from _all_hold(material)
-        names: list[Run] = []
-        for key in results.checks:
-            names += [*("; " for _ in names[:1]), _identity(key, words)]
-        yield words.paragraph("checked", names=tuple(names))
+        names = tuple(run for key in results.checks for run in ("; ", _identity(key, words)))
+        yield words.paragraph("checked", names=names[1:])
     elif results.checks:
         before = () if material.has_piston else (*words.sentence("identities"), " ")
         yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
@@ -165,10 +151,9 @@ def _checks(material: Material) -> Iterator[Block]:
         yield words.paragraph("notices")
         yield ItemList(tuple((_notice(notice, words),) for notice in notices))
     if assumed := plain_assumptions(results, words.language):
-        listed = material.full or not material.has_piston
-        yield Paragraph((*words.sentence("assumptions"), *(() if listed else (f" {'; '.join(assumed)}.",))))
-        if listed:
-            yield ItemList(tuple((text,) for text in assumed))
+        is_list = material.full or not material.has_piston
+        yield Paragraph((*words.sentence("assumptions"), "" if is_list else f" {'; '.join(assumed)}."))
+        yield from [ItemList(tuple((text,) for text in assumed))] if is_list else ()
 
 
 def _identity(key: str, words: Words) -> Cell:
@@ -180,9 +165,7 @@ def _identity(key: str, words: Words) -> Cell:
 def _notice(notice: Notice, words: Words) -> str:
     """Return the sentence of a notice; keys of the machine file that it names become what they mean."""
     values = {
-        name: ", ".join(words.meaning(key.removeprefix("engine.")) for key in value.split(", "))
-        if name in ("name", "names")
-        else words.part(value)
+        name: ", ".join(map(words.meaning, value.split(", "))) if name in ("name", "names") else words.part(value)
         for name, value in notice.values.items()
         if isinstance(value, str)
     }
@@ -242,12 +225,10 @@ def _all_hold(material: Material) -> Iterator[Block]:
     """Yield that all checks hold, where there are any."""
     checks = material.results.checks
     if checks:
-        largest, count = max(checks.values()), str(len(checks))
-        if largest < _ROUNDING:
-            yield material.words.paragraph("all_hold_exactly", count=count)
-        else:
-            residual = material.words.number(100.0 * largest, digits=2)
-            yield material.words.paragraph("all_hold", count=count, residual=residual)
+        largest = max(checks.values())
+        values = {"residual": material.words.number(100.0 * largest, digits=2)} if largest > _ROUNDING else {}
+        key = "all_hold" if values else "all_hold_exactly"
+        yield material.words.paragraph(key, count=str(len(checks)), **values)
 
 
 def _conclusion(material: Material) -> Iterator[Block]:

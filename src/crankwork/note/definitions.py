@@ -31,7 +31,7 @@ def definition_box(key: str, language: Language) -> Box | None:
         energy = _symbol("kinetic_energy_change", language)
         return row(Upright("max"), SPACE, energy, Sign("−"), Upright("min"), SPACE, energy)
     if key == "excess_work.exact":
-        return row(_tangent("max", "max", language), Sign("−"), _tangent("min", "min", language))
+        return row(_tangent("max", language), Sign("−"), _tangent("min", language))
     if kind in _MEANS:
         share = Fraction(Upright("1"), _symbol("cycle_angle", language))
         return row(share, Upright("∫"), _over(_MEANS[kind], "crank_angle", language))
@@ -49,8 +49,9 @@ def definition_text(key: str, language: Language) -> str:
         return f"max {names['kinetic_energy_change']} − min {names['kinetic_energy_change']}"
     if key == "excess_work.exact":
         slope, inertia = (QUANTITIES[name].symbol(language) for name in ("wittenbauer_slope", "total_reduced_inertia"))
-        ends = [f"{end}({names['kinetic_energy_change']} − {inertia}·{slope}_{end})" for end in ("max", "min")]
-        return " − ".join(ends)
+        return " − ".join(
+            f"{end}({names['kinetic_energy_change']} − {inertia}·{slope}_{end})" for end in ("max", "min")
+        )
     if kind in _MEANS:
         return f"1/{names['cycle_angle']}·∫ {names[_MEANS[kind]]} d{names['crank_angle']}"
     return ""
@@ -69,12 +70,11 @@ def integral_text(torque_key: str, language: Language) -> str:
     return f"{sign}∫({torque} − {mean}) d{phi}"
 
 
-def _tangent(end: str, slope: str, language: Language) -> Row:
+def _tangent(end: str, language: Language) -> Row:
     """Return an end of what a tangent cuts off: max (ΔT − J tan ψ_max)."""
-    tangent = symbol_box(f"{QUANTITIES['wittenbauer_slope'].symbol(language)}_{slope}")
-    inside = row(_symbol("kinetic_energy_change", language), Sign("−"), _symbol("total_reduced_inertia", language),
-                 SPACE, tangent)  # fmt: skip
-    return row(Upright(end), SPACE, Fence(inside))
+    tangent = symbol_box(f"{QUANTITIES['wittenbauer_slope'].symbol(language)}_{end}")
+    energy, inertia = _symbol("kinetic_energy_change", language), _symbol("total_reduced_inertia", language)
+    return row(Upright(end), SPACE, Fence(row(energy, Sign("−"), inertia, SPACE, tangent)))
 
 
 def _over(key: str, variable: str, language: Language) -> Row:

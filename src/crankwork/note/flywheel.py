@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 import numpy as np
 
 from crankwork.analysis.motor_choice import SERIES_SOURCE, selection_of
 from crankwork.locale import capital
-from crankwork.note.document import Block, Bold, Citation, Equation, Paragraph
+from crankwork.note.document import Block, Bold, Citation, Paragraph
 from crankwork.note.lines import WHEEL_SIZES
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -26,6 +25,7 @@ from crankwork.note.parts import (
     Text,
     When,
     amount,
+    drawn,
     either,
     every,
     full,
@@ -62,11 +62,7 @@ def _by_methods(material: Material) -> Iterator[Block]:
         if material.full and method != last and line.key not in _OF_ALL:
             yield Paragraph((Bold(capital(words.way(method))), ":"))
             last = method
-        for block in material.worked((line,), marks, again=True):
-            if isinstance(block, Equation) and line.key == "excess_work.exact":
-                yield replace(block, defined=line.key)
-            else:
-                yield block
+        yield from material.worked((line,), marks, again=True)
     excess = {
         name: line.value for name in methods for line in lines if line.key in (f"excess_work.{name}", "excess_work")
     }
@@ -148,10 +144,7 @@ def _is_alone(material: Material) -> bool:
     return engine is not None and len(engine.layout.places) == 1
 
 
-_FOUND: tuple[Part, ...] = (
-    When(lambda material: material.full or not material.has_piston, (Text("flywheel", {"value": _wanted}),)),
-    _by_methods,
-)
+_FOUND: tuple[Part, ...] = (When(either(full, drawn), (Text("flywheel", {"value": _wanted}),)), _by_methods)
 _OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
 _FIGURES = ("excess_work", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")

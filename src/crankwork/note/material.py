@@ -140,8 +140,10 @@ class Material:
 
     @property
     def has_free_moments(self) -> bool:
-        """Whether inertia forces of the cylinders leave a moment."""
-        return any(key.startswith("free_moment.") and value for key, value in self.summary.items())
+        """Whether inertia forces of the cylinders make a moment."""
+        listing = self.results.listings.get("balance")
+        moments = None if listing is None else listing.columns.get("free_moment")
+        return moments is not None and bool(np.any(np.nan_to_num(moments)))
 
     @property
     def has_piston(self) -> bool:
@@ -298,7 +300,8 @@ class Material:
             if mark in self._shown and not again:
                 continue
             self._shown.add(mark)
-            defined = line.key if isinstance(line, ValueLine) and self.has_piston and not again else ""
+            has_definition = self.has_piston and (not again or line.key == "excess_work.exact")
+            defined = line.key if isinstance(line, ValueLine) and has_definition else ""
             area = self.area(line.key) or 0.0
             symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
             blocks.append(Equation(line, symbol=symbol, defined=defined, area=area, digits=self.digits))

@@ -162,7 +162,7 @@ class Words:
 
     def meaning(self, name: str) -> str:
         """Return the meaning of a key of the machine file, or the key itself if it has no text."""
-        key = FILE_KEYS.get(name, name)
+        key = FILE_KEYS.get(name.removeprefix("engine."), name)
         if key in QUANTITIES:
             return QUANTITIES[key].label(self.language)
         return translate(f"report.{key}", self.language) if has_text(f"report.{key}") else key
