@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -12,6 +13,33 @@ from crankwork.resources import read_resource
 _ENTRY = re.compile(r"^@(?P<kind>\w+)\{(?P<key>\w+),$(?P<body>.*?)^\}$", re.MULTILINE | re.DOTALL)
 _FIELD = re.compile(r"^  (?P<name>\w+) = \{(?P<value>.*)\},$", re.MULTILINE)
 _CYRILLIC, _VIETNAMESE = re.compile("[а-яё]"), re.compile("[ăđơưạ-ỹ]")
+
+# the same matter in the books of the reader's school: by language, for a quantity or for all that is taken from a place
+_MOTION, _WORK = ("piston_velocity", "piston_acceleration"), ("work_per_cycle", "energy_fluctuation")
+_BALANCE = ("order_inertia_force", "free_force", "counterweight_moment")
+_SCHOOLS: Mapping[str, Mapping[str, str]] = MappingProxyType({
+    "en": {
+        "kolchin_demidov_2008, ch. 5": "heywood_1988, ch. 2",
+        "kolchin_demidov_2008, ch. 6": "norton_2012, ch. 13",
+        "kolchin_demidov_2008, ch. 7": "norton_2012, ch. 13",
+        "lukanin_shatrov_2007, ch. 1": "norton_2012, ch. 13",
+        **dict.fromkeys(_MOTION, "norton_2012, ch. 13"),
+        **dict.fromkeys(("whole_inertia", "flywheel_inertia", "wittenbauer_slope"), "norton_2012, ch. 11"),
+    },
+    "ru": {
+        **dict.fromkeys(_MOTION, "kolchin_demidov_2008, ch. 6"),
+        **dict.fromkeys(_BALANCE, "kolchin_demidov_2008, ch. 8"),
+        **dict.fromkeys(_WORK, "artobolevsky_1988, ch. 16"),
+    },
+    "vi": {
+        "kolchin_demidov_2008, ch. 3": "nguyen_tat_tien_2000",
+        "kolchin_demidov_2008, ch. 4": "nguyen_tat_tien_2000",
+        "lukanin_shatrov_2007, ch. 1": "kolchin_demidov_2008, ch. 7",
+        **dict.fromkeys(_MOTION, "kolchin_demidov_2008, ch. 6"),
+        **dict.fromkeys(_BALANCE, "kolchin_demidov_2008, ch. 8"),
+        **dict.fromkeys(_WORK, "artobolevsky_1988, ch. 16"),
+    },
+})  # fmt: skip
 
 
 class Source(NamedTuple):
@@ -58,6 +86,18 @@ def cite(reference: str) -> str:
     parts = (_names(source.author or source.editor), source.title, source.edition, _publication(source))
     sentences = " ".join(part if part.endswith(".") else part + "." for part in parts if part)
     return f"{sentences.removesuffix('.')}{comma}{place}".removesuffix(".") + "."
+
+
+def school_source(reference: str, language: str, quantity: str = "") -> str:
+    """Return a reference, or that to the same matter in a book of the school of a language.
+
+    Examples
+    --------
+    >>> school_source("kolchin_demidov_2008, ch. 5", "en"), school_source("kolchin_demidov_2008, ch. 5", "ru")
+    ('heywood_1988, ch. 2', 'kolchin_demidov_2008, ch. 5')
+    """
+    books = _SCHOOLS.get(language, {})
+    return books.get(quantity) or books.get(reference, reference) if reference else ""
 
 
 def source_language(key: str) -> str:

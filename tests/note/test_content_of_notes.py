@@ -39,7 +39,7 @@ OTHERS = [
 # as the files of the machines have them, and symbols
 NAMES = """
     bed block boom coupler cylinder line lower piston punch rocker rod slot upper arm ram pitman link plunger pump
-    spring checks const turning figure max min IVC EVO III
+    spring checks const turning figure max min sin cos IVC EVO III
 """
 ENGLISH = """
     the of and with from at force crank rod angle table figure load speed per mean largest least pressure torque work

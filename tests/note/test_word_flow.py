@@ -30,9 +30,9 @@ def test_figures_keep_their_order_and_no_heading_is_parted_from_its_text():
     assert order.index(2) + 1 == order.index(3)
 
 
-def test_a_figure_leaves_its_section_only_where_much_would_stay_empty():
+def test_a_figure_does_not_leave_its_section():
     assert _order((TEXT, 450.0), (FIGURE, 400.0), (TEXT, 170.0), (HEADING, 46.0), (TEXT, 50.0)) == [0, 2, 1, 3, 4]
-    assert _order((TEXT, 350.0), (FIGURE, 500.0), (HEADING, 46.0), (TEXT, 300.0), (TEXT, 50.0)) == [0, 2, 3, 1, 4]
+    assert _order((TEXT, 350.0), (FIGURE, 500.0), (HEADING, 46.0), (TEXT, 300.0), (TEXT, 50.0)) == [0, 1, 2, 3, 4]
 
 
 def test_nothing_is_lost():

@@ -8,11 +8,12 @@ from crankwork.formula.calculation_lines import ValueLine
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, in_order
 from crankwork.mechanism.mechanism import Crank
 from crankwork.note import layout
-from crankwork.note.document import Block, Citation, Equation, Reference, Runs
+from crankwork.note.document import Block, Citation, Equation, Reference, Runs, Table
 from crankwork.note.equations import value_box
 from crankwork.note.material import Material
-from crankwork.note.parts import At, Head, Lines, Places, Rows, Section, Shown, Text, When, every, full, has, turning
+from crankwork.note.parts import At, Head, Lines, Places, Section, Shown, Text, When, every, full, has, turning
 from crankwork.note.symbols import number_box, symbol_box
+from crankwork.note.tables import listing_table
 from crankwork.note.wording import in_display_unit, named
 from crankwork.quantities.key import key_of
 
@@ -78,10 +79,21 @@ def _of_harmonic(parts: list[layout.Box], times: layout.Box, rate: layout.Box) -
     return layout.Fraction(top, layout.row(layout.Digits("2"), times, below))
 
 
+def _worked(material: Material) -> list[Block]:
+    """Return the equations of the orders; in a short one neither moments that vanish nor the mass that rotates."""
+    left = () if material.full else ("rotating_mass", *(() if material.has_free_moments else ("free_moment",)))
+    return material.equations("balance", *(kind for kind in _OF_ORDERS if kind not in left))
+
+
+def _by_order(material: Material) -> Table | None:
+    """Return the free forces of each order, and the moments where there are any."""
+    return listing_table(material, "balance", "balance" if material.has_free_moments else "balance_forces")
+
+
 SECTIONS = (
     Section("balance", (
-        Head("balance", sinks=True), Text("balance"), Lines("balance", _OF_ORDERS),
-        Shown(("balance_orders", "balance_ellipses"), (Rows("balance", "balance"),)),
+        Head("balance", sinks=True), Text("balance"), _worked,
+        Shown(("balance_orders", "balance_ellipses"), (_by_order,)),
     ), has("piston_displacement", "balance")),
     Section("balance", (
         Head("linkage_balance"), Text("shaking", {"source": Citation(_BALANCE)}), At("shaking"), Lines("shaking"),

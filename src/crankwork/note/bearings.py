@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
+import numpy as np
+
 from crankwork.note.document import Block, Citation, Math, Runs
 from crankwork.note.lines import first_articulated
 from crankwork.note.material import Material
@@ -52,6 +54,25 @@ def _columns(material: Material) -> list[str]:
     return [key for key in material.results.groups.get("bearings", ()) if key in material.columns]
 
 
+def _of_pin_and_rod(material: Material) -> list[str]:
+    """Return the columns of crankpin and rod; without the big end where it carries what the crankpin does."""
+    keys = _columns(material)
+    return [key for key in keys if material.full or key != "big_end_load" or not _is_same(material)]
+
+
+def _is_same(material: Material) -> bool:
+    """Return whether one rod alone is on each crankpin, so that its big end carries the same load."""
+    pin, columns = "crankpin_load.1", material.columns
+    return {pin, "big_end_load"} <= columns.keys() and np.allclose(columns[pin], columns["big_end_load"])
+
+
+def _components(material: Material) -> Iterator[Block]:
+    """Yield the components of the load on the first main journal, sums over the throws beside it."""
+    wanted = ("bearing_force_x.main_journal.1", "bearing_force_y.main_journal.1")
+    lines = [line for line in material.lines("bearings") if line.key in wanted]
+    yield from () if material.full else material.worked(lines)
+
+
 def _has_pin(material: Material) -> bool:
     return material.has_piston and bool(_columns(material))
 
@@ -94,7 +115,10 @@ def _oil_holes(material: Material) -> Iterator[Block]:
         yield words.paragraph("joint_wear", name=key_of(key).owner, value=angle)
 
 
-_PIN: tuple[Part, ...] = (Text("crankpin"), _articulated, At("bearings"), Lines("bearings", _ON_CRANKPIN))
+_PIN: tuple[Part, ...] = (
+    Text("crankpin"), When(every(lacks(full), _is_same), (Text("big_end_same"),)), _articulated, At("bearings"),
+    Lines("bearings", _ON_CRANKPIN),
+)  # fmt: skip
 _STATED = Lines("bearing_loads", _STATISTICS, intro="loads", first=True)
 _OF_ROD = Lines("bearings", _ON_ROD)
 _LOADS, _OF_WEAR = Rows("bearing_loads", "loads"), Rows("crankpin_wear", "crankpin_wear")
@@ -106,8 +130,9 @@ SECTIONS = (
     Section("crankpin", (
         Head("crankpin"), *_PIN, _OF_ROD, _STATED,
         When(lacks(full), (_oil_hole,)),
+        Shown((), (_LOADS,)),
         Shown(("crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar"),
-              (Over("crankpin", _columns), _LOADS), ("crankpin_wear",)),
+              (Over("crankpin", _of_pin_and_rod),), ("crankpin_wear",)),
         When(full, (Head("wear", 2), *_WEAR)),
     ), _has_pin),
     Section("polar", (
@@ -121,7 +146,7 @@ SECTIONS = (
     Section("wear", (Head("wear"), *_WEAR), has("piston_displacement", "crankpin_wear")),
     # main journals, and the torque along the shaft
     Section("mains", (
-        Head("mains", sinks=True), Text("mains"), At("bearings"), Lines("bearings", _ON_MAINS),
+        Head("mains", sinks=True), Text("mains"), At("bearings"), _components, Lines("bearings", _ON_MAINS),
         Shown(("main_journal_polar",), (Over("mains", _group("main_journals")),)),
         When(full, (
             Shown(("main_wear",), (Rows("main_wear", "main_wear"),)), Lines("engine_torque"),

@@ -28,6 +28,7 @@ _SAME = {
     "captions.accumulated": "tables.accumulated_torque",
     "captions.acceleration": "quantities.piston_acceleration",
     "captions.balance": "figures.balance_orders",
+    "captions.balance_forces": "figures.balance_forces",
     "captions.bearings": "tables.bearings",
     "captions.chambers": "tables.chambers",
     "captions.comparison": "tables.comparison",

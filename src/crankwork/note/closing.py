@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
@@ -16,18 +15,18 @@ from crankwork.note.data import GEAR, cycle_keys
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Section, Shown, When, drawn, every, full, has, lacks, written
+from crankwork.note.parts import Head, Section, Shown, drawn, every, full, has, written
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.readings import agree, concluded, concluded_of_linkage
 from crankwork.note.table_width import SIZES, fits
-from crankwork.note.tables import position_tables, quantity_columns, short_rows, value_row, value_table
+from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
 from crankwork.report.assumptions import plain_assumptions
 from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.drawing import film_of
-from crankwork.report.look import figure_title, kind_of
+from crankwork.report.look import kind_of
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import warning_text
 from crankwork.report.tables import any_nonzero
@@ -49,8 +48,8 @@ _OF_LINKAGES = frozenset((
     "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
     "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
 ))  # fmt: skip
-# digits of differences
-_DIGITS = 3
+# digits of differences, and what of a residual is rounding
+_DIGITS, _ROUNDING = 3, 1e-9
 # in their order; of what links, joints and cylinders have the largest is before
 _NUMBERS = (
     "effective_power", "indicated_power", "motor_power", "shaft_power",
@@ -135,11 +134,9 @@ def _checks(material: Material) -> Iterator[Block]:
     """Yield the identities that were checked, the errors of the method, and what the reader should know."""
     words, results = material.words, material.results
     largest_errors = errors(material)
-    if material.has_piston and not material.full and not results.unmet:
-        yield from _all_hold(material)
-    elif results.checks and not material.full and agree(results.checks):
-        shown = (translate(f"report.{key}", words.language) for key in results.checks)
-        yield words.paragraph("agreeing", which="; ".join(shown))
+    if results.checks and not material.full and not results.unmet and (material.has_piston or agree(results.checks)):
+        names = tuple(run for key in results.checks for run in ("; ", _identity(key, words)))
+        yield words.paragraph("agreeing" if agree(results.checks) else "checked", names=names[1:])
     elif results.checks:
         before = () if material.has_piston else (*words.sentence("identities"), " ")
         yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
@@ -156,8 +153,9 @@ def _checks(material: Material) -> Iterator[Block]:
         yield words.paragraph("notices")
         yield ItemList(tuple((_notice(notice, words),) for notice in notices))
     if assumed := plain_assumptions(results, words.language):
-        yield words.paragraph("assumptions")
-        yield ItemList(tuple((text,) for text in assumed))
+        is_list = material.full or not material.has_piston
+        yield Paragraph((*words.sentence("assumptions"), "" if is_list else f" {'; '.join(assumed)}."))
+        yield from [ItemList(tuple((text,) for text in assumed))] if is_list else ()
 
 
 def _identity(key: str, words: Words) -> Cell:
@@ -182,8 +180,8 @@ def _errors(material: Material, largest_errors: dict[str, tuple[float, float]]) 
     rows = [
         (
             label(key.removesuffix("_error"), words.language),
-            words.number(displayed(key, error), digits=4),
-            printed_unit(key_unit(key), words.language) or "–",
+            words.number(displayed(key, error, per_area=material.area(key)), digits=4),
+            printed_unit(key_unit(key, per_area=material.area(key) is not None), words.language) or "–",
             words.number(100 * share, digits=2),
         )
         for key, (error, share) in largest_errors.items()
@@ -207,7 +205,12 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
         yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
-        yield Figure(film.still(), title, film.about or title, label="f:machine", high=_HIGHEST)
+        sizes = ("bore", "stroke", "crank_radius", "rod_length") if material.has_piston else ()
+        known = [
+            f"{words.symbol(key)} = {words.amount(summary[key], 'mm', digits=4)}" for key in sizes if key in summary
+        ]
+        caption = ", ".join((f"{title}: {known[0]}", *known[1:])) if known else title
+        yield Figure(film.still(), caption, film.about or title, label="f:machine", high=_HIGHEST)
     # a linkage has a joint there
     numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
     keys = [key for kind in numbers for key in _of(kind, summary)
@@ -229,19 +232,6 @@ def _all_hold(material: Material) -> Iterator[Block]:
             words.number(100.0 * max(checks.values()), digits=2),
         )
         yield words.paragraph(key, count=str(len(checks)), residual=residual)
-
-
-def _left_out(material: Material) -> Iterator[Block]:
-    """Yield what only the full note has."""
-    words = material.words
-    items = [translate("sentences.left_out_formulas", words.language)]
-    if not short_rows(material).all():
-        step = words.amount(math.radians(material.results.machine.table_step), "deg")
-        items.append(translate("sentences.left_out_tables", words.language, step=step))
-    left = [figure_title(name, words.language) for name in dict.fromkeys(map(kind_of, material.remaining_figures()))]
-    if left:
-        items.append(translate("sentences.left_out_figures", words.language, figures="; ".join(left)))
-    yield words.paragraph("left_out", items="; ".join(items))
 
 
 def _conclusion(material: Material) -> Iterator[Block]:
@@ -266,10 +256,13 @@ def _row(material: Material, key: str) -> tuple[Cell, ...]:
     words, summary = material.words, material.summary
     area = summary["piston_area"] if material.per_area else None
     kind = key_of(key).quantity
-    places = {unit: summary.get(key_of(key).derived(f"_{over}")) for over, unit in (("angle", "deg"), ("time", "s"))}
-    reached = [(place, unit) for unit, place in places.items() if place is not None and kind.endswith(("_max", "_min"))]
+    angle, time = (summary.get(key_of(key).derived(f"_{over}")) for over in ("angle", "time"))
+    if not kind.endswith(("_max", "_min")) or (angle is None and time is None):
+        reached = "–"
+    else:
+        reached = words.amount(time or 0.0, "s", digits=4) if angle is None else words.angle(angle)
     row = value_row(display_key(key, material.results), summary[key], words, area=area, digits=material.digits)
-    return (*row, words.amount(*reached[0], digits=4) if reached else "–")
+    return (*row, reached)
 
 
 def _further(material: Material) -> Iterator[Block]:
@@ -331,10 +324,7 @@ SECTIONS = (
             lambda material: material.results.compared is not None),
     Section("checks", (Head("checks"), _checks), _has_checks),
     Section("summary", (Head("results"), _at_a_glance)),
-    Section("conclusion", (
-        Head("conclusion"), _conclusion,
-        When(lacks(full), (_left_out,)),
-    )),
+    Section("conclusion", (Head("conclusion"), _conclusion)),
     Section("nomenclature", (lambda material: [material.words.heading("nomenclature", label=NOMENCLATURE)],)),
     Section("sources", (Head("sources"), lambda _: (Bibliography(),))),
     Section("appendix", (_rest,), every(full, has("piston_displacement"))),

@@ -15,9 +15,9 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, 
 from crankwork.mechanism.linkage import Member
 from crankwork.mechanism.mechanism import Driver
 from crankwork.mechanism.structure import links_of
-from crankwork.note.document import Block, Cell, Citation, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
+from crankwork.note.document import Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Lines, Section, Text, When, driven, has, lacks, machine_has, school
+from crankwork.note.parts import Head, Lines, Section, Text, When, driven, full, has, lacks, machine_has, school
 from crankwork.note.symbols import subscript
 from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
@@ -35,7 +35,6 @@ _SIZES = (
 )  # fmt: skip
 _OF_ROD = ("rod_mass", "small_end_share", "rod_centre_distance", "rod_inertia", "rod_gyration_radius")
 _ELSEWHERE = ("cylinder_count", "displacement")
-_SOURCES = {"first": "kolchin_demidov_2008, ch. 7", "second": "kolchin_demidov_2008, ch. 9"}
 
 
 _MOST_JOINTS = 3
@@ -60,22 +59,19 @@ def _given(material: Material) -> Iterator[Block]:
 
 
 def _how(material: Material) -> Iterator[Block]:
-    """Yield method, constants, crank-to-rod ratio of every stage, and conventions."""
+    """Yield method, constants that are not those of everybody, crank-to-rod ratios, and conventions."""
     words, results = material.words, material.results
-    yield words.paragraph(
-        "method",
-        method=results_method(results, words.language),
-        pi=words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
-        gravity=words.number(results.method.gravity),
-    )
+    pi, gravity = results.method.pi, results.method.gravity
+    method = [results_method(results, words.language)]
+    if material.full or pi != math.pi:
+        method.append(f"π = {words.number(pi, digits=9 if pi == math.pi else 6)}")
+    if material.full or "weight_force" in results.columns:
+        method.append(f"g = {words.amount(gravity, 'm/s2')}")
     used, ratio = results.method.inertia_rod_ratio, results.summary["rod_ratio"]
+    sentences = list(words.sentence("method", method=", ".join(method)))
     if used is not None and not results.method.is_exact:
-        yield words.paragraph("two_ratios", used=words.number(used), ratio=words.number(ratio))
-    else:
-        yield words.paragraph("one_ratio", ratio=words.number(ratio))
-    yield words.paragraph("conventions")
-    if "piston_force" in results.columns:
-        yield words.paragraph("references", **{name: Citation(source) for name, source in _SOURCES.items()})
+        sentences += [" ", *words.sentence("two_ratios", used=words.number(used), ratio=words.number(ratio))]
+    yield Paragraph((*sentences, " ", *words.sentence("conventions")))
 
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
@@ -478,7 +474,8 @@ SECTIONS = (
     Section("preface", (Head("preface"), Text("preface")), has("piston_displacement")),
     Section("data", (
         Head("data"), _given, When(lacks(school("en")), (_how,)),
-        Lines("geometry", intro="geometry"), Lines("speed", ("speed", "mean_piston_speed")),
+        When(full, (Lines("geometry", intro="geometry"),)), Lines("geometry"),
+        Lines("speed", ("speed", "mean_piston_speed")),
         When(lambda material: material.results.solved.space is None, (Lines("gas", intro="volumes"),)),
     ), has("piston_displacement")),
     Section("method", (Head("method"), _how), has("piston_displacement")),

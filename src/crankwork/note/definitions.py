@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from crankwork.note.layout import SPACE, Box, Fraction, Row, Sign, Upright, row
+from crankwork.note.layout import SPACE, Box, Fence, Fraction, Row, Sign, Upright, row
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.quantities.key import key_of
@@ -30,6 +30,8 @@ def definition_box(key: str, language: Language) -> Box | None:
     if key == "excess_work":
         energy = _symbol("kinetic_energy_change", language)
         return row(Upright("max"), SPACE, energy, Sign("−"), Upright("min"), SPACE, energy)
+    if key == "excess_work.exact":
+        return row(_tangent("max", language), Sign("−"), _tangent("min", language))
     if kind in _MEANS:
         share = Fraction(Upright("1"), _symbol("cycle_angle", language))
         return row(share, Upright("∫"), _over(_MEANS[kind], "crank_angle", language))
@@ -45,6 +47,11 @@ def definition_text(key: str, language: Language) -> str:
         return f"∮ {QUANTITIES['diagram_pressure'].symbol(language)} d{QUANTITIES['cylinder_volume'].symbol(language)}"
     if key == "excess_work":
         return f"max {names['kinetic_energy_change']} − min {names['kinetic_energy_change']}"
+    if key == "excess_work.exact":
+        slope, inertia = (QUANTITIES[name].symbol(language) for name in ("wittenbauer_slope", "total_reduced_inertia"))
+        return " − ".join(
+            f"{end}({names['kinetic_energy_change']} − {inertia}·{slope}_{end})" for end in ("max", "min")
+        )
     if kind in _MEANS:
         return f"1/{names['cycle_angle']}·∫ {names[_MEANS[kind]]} d{names['crank_angle']}"
     return ""
@@ -61,6 +68,13 @@ def integral_text(torque_key: str, language: Language) -> str:
     mean, sign = _BEYOND[torque_key]
     torque, mean, phi = (QUANTITIES[name].symbol(language) for name in (torque_key, mean, "crank_angle"))
     return f"{sign}∫({torque} − {mean}) d{phi}"
+
+
+def _tangent(end: str, language: Language) -> Row:
+    """Return an end of what a tangent cuts off: max (ΔT − J tan ψ_max)."""
+    tangent = symbol_box(f"{QUANTITIES['wittenbauer_slope'].symbol(language)}_{end}")
+    energy, inertia = _symbol("kinetic_energy_change", language), _symbol("total_reduced_inertia", language)
+    return row(Upright(end), SPACE, Fence(row(energy, Sign("−"), inertia, SPACE, tangent)))
 
 
 def _over(key: str, variable: str, language: Language) -> Row:

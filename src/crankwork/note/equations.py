@@ -68,19 +68,27 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     block = block if isinstance(block.step, Formula) else replace(block, step=without_noise(block.step))
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []
-    for part in (*_definition(block, language), *_parts(block.step, language, block.digits)):
+    for part in (*_definition(block, language), *_parts(block.step, language, block.digits, by_area=bool(block.area))):
         if parts and isinstance(part, Row) and Row(part.parts[:-2]) == row(parts[-1]):
             # the same number follows with its unit
             parts.pop()
         if _bare(part) != left and (not parts or part != parts[-1]):
             parts.append(part)
     lines = list(_lines(left, parts, limit))
+    if block.digits < RESULT_DIGITS and len(lines) > 1 and _has_two_units(block.step):
+        # no line of its own for the same value in another unit
+        shorter = list(_lines(left, [*parts[:-2], parts[-1]], limit))
+        lines = shorter if len(shorter) < len(lines) else lines
     if block.area:
         symbol, value, unit = _per_area(block, language)
         divided = row(symbol_box(symbol), EQUALS, value_box(value, unit, language, block.digits))
         joined = row(lines[-1], Sign(";", "comma"), SPACE, divided)
         lines[-1:] = [joined] if width(joined) <= limit else [lines[-1], divided]
     return PrintedEquation(tuple(lines), _plain(block, language))
+
+
+def _has_two_units(step: Line | Formula) -> bool:
+    return isinstance(step, FormulaLine) and len(distinct_values(step)) > 1
 
 
 def _bare(box: Box) -> Box:
@@ -173,8 +181,8 @@ def _definition(block: Equation, language: Language) -> tuple[Box, ...]:
     return () if box is None else (box,)
 
 
-def _parts(step: Line | Formula, language: Language, least: int) -> Iterator[Box]:
-    """Yield the boxes between the equal signs."""
+def _parts(step: Line | Formula, language: Language, least: int, *, by_area: bool = False) -> Iterator[Box]:
+    """Yield the boxes between the equal signs; `by_area`: the value by the piston area follows instead of a unit."""
     match step:
         case Formula():
             yield formula_box(record(step.shown), None, language)
@@ -191,7 +199,7 @@ def _parts(step: Line | Formula, language: Language, least: int) -> Iterator[Box
             if len(terms) > 1:
                 digits = enough_digits(step, least)
                 yield _joined([number_box(term.value, language, digits)[0] for term in terms])
-    for value, unit in distinct_values(step):
+    for value, unit in distinct_values(step)[: 1 if by_area else None]:
         yield value_box(value, unit, language, least)
 
 
@@ -274,9 +282,10 @@ def _plain(block: Equation, language: Language) -> str:
         parts += [part for part in (definition_text(block.defined, language),) if part]
     if isinstance(step, Formula):
         return " = ".join([*parts, text(record(step.shown), None, language)])
-    equation = " = ".join([*parts, *line_parts(step, language, least=block.digits)])
+    further = line_parts(step, language, least=block.digits)
     if not block.area:
-        return equation
+        return " = ".join([*parts, *further])
+    equation = " = ".join([*parts, *further[: -1 if len(distinct_values(step)) > 1 else None]])
     symbol, value, unit = _per_area(block, language)
     return f"{equation}; {symbol} = {value_text(value, unit, language, block.digits)}"
 

@@ -1,7 +1,6 @@
 """The order in which the blocks of a note are printed: figures and short tables stand where they leave little empty.
 
-One without room on its page waits until the text after it has filled the page, and for the end of its section at most,
-unless much of the page would stay empty there.
+One without room on its page waits until the text after it has filled the page, and for the end of its section at most.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.note.document import Block, Contents, Figure, Heading, ItemList, PageBreak, Paragraph, Table, TitlePage
 
-# of a page: height of its text, what may stay empty within a section, and at its end [pt]
+# of a page: height of its text, what may stay empty within a section, and where text would fill it [pt]
 PAGE, _LITTLE, _EMPTY = 728.0, 60.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
@@ -39,7 +38,7 @@ def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Itera
         waiting += [k] if may_wait else []
         covers = isinstance(block, TitlePage) and not block.is_plain
         is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
-        most = PAGE if is_new else _EMPTY if isinstance(block, Heading) and block.level == 1 else _LITTLE
+        most = PAGE if is_new or (isinstance(block, Heading) and block.level == 1) else _LITTLE
         # what waits does not stand between a heading and its text
         while waiting and (not is_heading or waiting == [k]):
             place = next((place for place in _ready(waiting, blocks) if _fits_here(filled, heights[place], most)), None)

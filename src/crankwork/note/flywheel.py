@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis.motor_choice import SERIES_SOURCE, selection_of
 from crankwork.locale import capital
-from crankwork.note.document import Block, Bold, Citation, Paragraph, Reference
+from crankwork.note.document import Block, Bold, Citation, Paragraph
 from crankwork.note.lines import WHEEL_SIZES
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -25,6 +25,7 @@ from crankwork.note.parts import (
     Text,
     When,
     amount,
+    drawn,
     either,
     every,
     full,
@@ -58,7 +59,7 @@ def _by_methods(material: Material) -> Iterator[Block]:
     shown_lines = lines if material.full else [line for line in lines if "exact" in line.key.split(".")]
     for line in shown_lines:
         method = next((name for name in methods if name in line.key.split(".")), last or methods[0])
-        if method != last and line.key not in _OF_ALL:
+        if material.full and method != last and line.key not in _OF_ALL:
             yield Paragraph((Bold(capital(words.way(method))), ":"))
             last = method
         yield from material.worked((line,), marks, again=True)
@@ -71,6 +72,10 @@ def _by_methods(material: Material) -> Iterator[Block]:
         for name in methods
         if name in excess
     ]  # fmt: skip
+    if not material.full and material.has_piston:
+        inertias = [f"{words.way(name)} – {inertia}" for name, (_, _, inertia) in zip(excess, rows, strict=True)]
+        yield words.paragraph("flywheel_others", others="; ".join(inertias[:-1]), unit=words.unit("flywheel_inertia"))
+        return
     titles = ("way", words.titled("excess_work"), words.titled("flywheel_inertia"))
     yield words.paragraph("flywheel_ways")
     yield words.table("flywheels", titles, rows, "lrr", "flywheels")
@@ -139,7 +144,7 @@ def _is_alone(material: Material) -> bool:
     return engine is not None and len(engine.layout.places) == 1
 
 
-_FOUND: tuple[Part, ...] = (Text("flywheel", {"value": _wanted}), _by_methods)
+_FOUND: tuple[Part, ...] = (When(either(full, drawn), (Text("flywheel", {"value": _wanted}),)), _by_methods)
 _OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
 _FIGURES = ("excess_work", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")
@@ -148,7 +153,7 @@ _STEADY = Text("steady", {"speed": amount("steady_speed", "rpm"), "fluctuation":
 SECTIONS = (
     Section("evenness", (
         Head("evenness"), When(every(_OF_ENERGY, lacks(_IS_EXACT)), (Text("evenness_of_all"),)),
-        When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact", {"table": Reference("flywheels")}),)),
+        When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact"),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), When(either(full, lacks(_IS_EXACT)), (Lines("uniformity"),)),
         When(_IS_EXACT, _FOUND),
         When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),

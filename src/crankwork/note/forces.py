@@ -70,7 +70,7 @@ def _per_area(material: Material) -> Iterator[Block]:
     """Yield how forces are related to the piston area, where they are."""
     if material.per_area:
         words = material.words
-        value = words.amount(material.summary["piston_area"], "cm2")
+        value = words.amount(material.summary["piston_area"], "cm2", digits=material.digits)
         yield words.paragraph("per_area", value=value, unit=words.unit("gas_pressure"))
 
 
@@ -78,7 +78,10 @@ def _masses(material: Material) -> Iterator[Block]:
     """Yield the masses of the crank gear."""
     given = material.machine.masses
     rigid = given is not None and bool(given.rod_inertia_excess) and material.results.method.rod == "rigid"
-    yield from material.intro("masses_rigid" if rigid else "masses", material.equations("masses"))
+    # masses given by the piston area have nothing to be worked
+    parts = ("reciprocating_mass", "rotating_mass") if material.lines("masses", "piston_area") else ()
+    equations = material.equations("masses", *(() if material.full else parts))
+    yield from material.intro("masses_rigid" if rigid else "masses", equations)
 
 
 def _along(material: Material) -> Iterable[str]:
@@ -97,7 +100,9 @@ def _across(material: Material) -> Iterable[str]:
 
 def _to_six_decimals(material: Material) -> Table | None:
     """Return the gas force, inertia force and their sum, to six decimals where they are per area."""
-    return long_table(material, "along", _OF_PISTON, decimals=_VIETNAMESE if material.per_area else None)
+    return long_table(
+        material, "along", _OF_PISTON, decimals=_VIETNAMESE if material.per_area and material.full else None
+    )
 
 
 def _undrawn(material: Material) -> Iterator[Block]:

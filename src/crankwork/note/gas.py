@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+import operator
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -11,15 +12,18 @@ from crankwork.analysis.input_loads import stated_chambers
 from crankwork.analysis.polytropes import Polytropes, polytropes
 from crankwork.analysis.prepared import Notice
 from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine
-from crankwork.formula.expression import symbol
+from crankwork.formula.expression import Formula, Operation, Symbol, evaluate, symbol, text
 from crankwork.formula.traced_value import Piecewise
 from crankwork.formula.traced_value import Tabulated as TableOfValues
 from crankwork.locale import has_text, translate
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.data import cycle_keys
-from crankwork.note.document import Block, Cell, Citation, Math, Reference, Runs, Table
+from crankwork.note.document import Block, Cell, Citation, Equation, Math, Reference, Runs, Table
+from crankwork.note.equations import value_box, value_symbol
+from crankwork.note.layout import EQUALS, SPACE, PrintedEquation, Sign, row
 from crankwork.note.legends import legend
 from crankwork.note.material import Material
+from crankwork.note.math import enough_digits, formula_box
 from crankwork.note.parts import (
     At,
     Head,
@@ -34,6 +38,7 @@ from crankwork.note.parts import (
     machine_has,
 )
 from crankwork.note.printed_units import printed_unit
+from crankwork.note.symbols import symbol_box
 from crankwork.note.tables import Column, column_table, folded, quantity_column, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
@@ -91,6 +96,7 @@ _SHARES = (
     ("unburnt", "heat_unburnt"), ("rest", "heat_rest"),
 )  # fmt: skip
 _MEASURED_STEP = 10.0
+_BURNT, _HEATS = ("combustion_celsius", "combustion_temperature"), "kolchin_demidov_2008, ch. 1"
 _DELIVERED, _VOLUME = "eastop_mcconkey_1993, ch. 12", "kolchin_demidov_2008, ch. 5"
 _CHARGE = "urieli_berchowitz_1984"
 _SINGLE = (
@@ -99,15 +105,17 @@ _SINGLE = (
 )  # fmt: skip
 
 
-# amounts of gases, their heats and the balance of them, which the full note has
+# heats of single gases and parts of the heat balance, which the full note has
 _OF_CHEMISTRY = (
-    "air_", "fresh_charge_", "product_", "molar_", "heat_", "mixture_", "working_mixture_", "combustion_energy",
+    "fresh_charge_heat", "product_", "molar_enthalpy", "heat_share", "gas_celsius",
 )  # fmt: skip
 # what varies with the crank angle or stands among the data of the machine
 _ELSEWHERE = (
     "crank_angle", "cylinder_pressure", "cylinder_temperature", "cylinder_volume", "piston_displacement",
     "diagram_pressure", "bore", "rotational_speed", "speed", "stroke",
 )  # fmt: skip
+# values of an engine that burns at constant volume and uses its whole stroke
+_NEUTRAL = {"cut_off": 1.0, "lost_stroke": 0.0}
 # arguments that formulas of the cycle calculate under several names
 _CALCULATED = ("Q_part", "mc_gas", "th_gas", "T_zero", "t_gas", "h_prod", "h_fresh", "p_1", "V_1", "V_phi")
 # what a fuel, or the kind of an engine, brings along when it is taken as usual
@@ -121,22 +129,24 @@ def _cycle(material: Material) -> Iterator[Block]:
     """Yield the calculation of the working cycle, stage by stage."""
     words = material.words
     steps = [line for line in material.groups["cycle"].lines if not isinstance(line, ValueLine)]
-    rows = list(_cycle_data(material, [step for step in steps if isinstance(step, FormulaLine)]))
+    formulas = [step for step in steps if isinstance(step, FormulaLine)]
+    rows = list(_cycle_data(material, formulas))
     if rows:
-        yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
+        marked = any(str(row[0]).endswith("*") for row in rows)
+        key = "cycle_data_assumed" if marked else "cycle_data"
+        yield words.paragraph(key, table=Reference("t:cycle_data"))
         yield value_table("cycle_data", rows, words)
-    yield words.paragraph("cycle")
     if not material.full:
-        yield from material.equations("cycle")
+        yield from _worked_cycle(material, {step.key: step for step in formulas})
         left = [line.key for line in steps if line.key in material.summary and not material.is_shown(line.key)]
-        left = [key for key in left if not key.startswith(_OF_CHEMISTRY)]
-        yield words.paragraph("cycle_results", table=Reference("t:cycle_results"))
-        yield value_table(
-            "cycle_results",
-            [value_row(key, material.summary[key], words, digits=material.digits) for key in left],
-            words,
-        )
+        # sizes that the diagram gives too are told with it
+        left = [key for key in left if not key.startswith(_OF_CHEMISTRY) and material.of_cycle(key) == key]
+        if left:
+            further = [value_row(key, material.summary[key], words, digits=material.digits) for key in left]
+            yield words.paragraph("cycle_results", table=Reference("t:cycle_results"))
+            yield value_table("cycle_results", further, words)
         return
+    yield words.paragraph("cycle")
     for stage, lines in _staged(steps).items():
         equations = material.worked(lines)
         if equations:
@@ -145,6 +155,63 @@ def _cycle(material: Material) -> Iterator[Block]:
             yield words.paragraph("heat_release")
         yield from equations
     yield from material.presented([_heat_balance(material)])
+
+
+def _worked_cycle(material: Material, steps: Mapping[str, FormulaLine]) -> Iterator[Block]:
+    """Yield the main equations of the cycle: heats of the products as a table, burning as its balance of energy."""
+    heats, burnt = _heats(material, steps), next((steps[key] for key in _BURNT if key in steps), None)
+    given = cycle_keys(material)
+    for block in material.equations("cycle"):
+        key = block.step.key if isinstance(block, Equation) and not isinstance(block.step, Formula) else ""
+        if key == "molar_change" and heats is not None:
+            yield material.words.paragraph("heats", table=Reference("t:heats"), source=Citation(_HEATS))
+            yield heats
+        if burnt is not None and key == burnt.key:
+            yield _balance_of_burning(material, burnt)
+        elif key not in given and (heats is None or key not in ("product_heat_constant", "product_heat_slope")):
+            yield block
+
+
+def _heats(material: Material, steps: Mapping[str, FormulaLine]) -> Table | None:
+    """Return amounts and heats of the gases of the products, None where the law of heats does not part them."""
+    at_c, constant, slope = (steps.get(key) for key in ("product_heat", "product_heat_constant", "product_heat_slope"))
+    if at_c is None or constant is None or slope is None or "M_prod" not in constant.values:
+        return None
+    words, language = material.words, material.words.language
+    gases = [name for name in constant.values if name != "M_prod" and constant.values[name]]
+    rows: list[tuple[Cell, ...]] = []
+    amounts = words.column_texts([constant.values[gas] for gas in (*gases, "M_prod")], decimals=5)
+    for gas, shown in zip([*gases, "M_prod"], amounts, strict=True):
+        # each gas alone, and all of them
+        share = {name: 1.0 if name in (gas, "M_prod") else 0.0 for name in constant.values} if gas in gases else {}
+        own = [float(evaluate(step.expression, {**step.values, **share})) for step in (at_c, constant, slope)]
+        warm, first, further = (words.number(value, digits=4) for value in own)
+        rows.append((Math(symbol(gas, language)), shown, warm, f"{first} + {further} t"))
+    heat, amount = printed_unit("kJ/(kmol*K)", language), printed_unit("kmol/kg", language)
+    ranges = (f"{words.number(steps['compression_celsius'].value, digits=4)} °C", "1500…2800 °C")
+    titles: list[Runs] = [(words.column("symbol"),), (Math("M"), f", {amount}")]
+    titles += [(Math(words.symbol("product_heat")), f" ({place}), {heat}") for place in ranges]
+    return words.table("heats", titles, rows, "crrl", "t:heats")
+
+
+def _balance_of_burning(material: Material, step: FormulaLine) -> Equation:
+    """Return the equation of burning, in letters and in numbers, with the temperature that satisfies it."""
+    language, name = material.words.language, "t_z" if step.key == "combustion_celsius" else "T_z"
+    constant, slope, change, temperature = map(Symbol, ("a_prod", "b_prod", "mu", name))
+    heat = Operation(operator.add, (constant, Operation(operator.mul, (slope, temperature))))
+    tree = Operation(operator.mul, (Operation(operator.mul, (change, heat)), temperature))
+    names, digits = dict(step.named), enough_digits(step, material.digits)
+    symbols = {key: value_symbol(named, language) for key, named in names.items()}
+    sides = [
+        row(formula_box(tree, values, language, digits=digits, symbols=symbols), EQUALS,
+            formula_box(Symbol("E_z"), values, language, digits=digits))
+        for values in (None, step.values)
+    ]  # fmt: skip
+    value = value_box(step.value, step.formula.unit or "K", language, material.digits)
+    solution = row(symbol_box(symbol(name, language)), EQUALS, value)
+    numbers = {key: material.words.number(put_in, digits=digits) for key, put_in in step.values.items()}
+    lines = (sides[0], row(sides[1], Sign(";", "comma"), SPACE, solution))
+    return Equation(step, digits=material.digits, printed=PrintedEquation(lines, text(tree, numbers, language)))
 
 
 def _staged(steps: Sequence[Line]) -> dict[str, list[Line]]:
@@ -279,10 +346,11 @@ def _cycle_data(material: Material, steps: Sequence[FormulaLine]) -> Iterator[tu
     words, given, assumed = material.words, cycle_keys(material), _assumed(material)
 
     def marked(key: str, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
-        return (f"{row[0]} ({words.term('assumed')})", *row[1:]) if key in assumed else row
+        return (f"{row[0]}*", *row[1:]) if key in assumed else row
 
     for key in given:
-        yield marked(key, value_row(key, material.summary[key], words))
+        if material.full or _NEUTRAL.get(key) != material.summary[key]:
+            yield marked(key, value_row(key, material.summary[key], words))
     known = {*given, *material.summary, *material.results.columns, *_ELSEWHERE}
     known |= {base_key(line.key) for line in material.cycle}
     for step in steps:

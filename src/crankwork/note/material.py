@@ -15,7 +15,7 @@ from crankwork.analysis.cylinder_forces import force_functions
 from crankwork.analysis.rounding_noise import summary_without_rounding, without_rounding
 from crankwork.analysis.vector_polygons import position_step, positions, worked_position
 from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, ValueLine
-from crankwork.formula.expression import Expression, Operation, Symbol
+from crankwork.formula.expression import Expression, Number, Operation, Symbol
 from crankwork.locale import capital, has_text, translate
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import Structure, structure
@@ -41,14 +41,18 @@ _CONSTRUCTED = (
 )  # fmt: skip
 # what a note shows the formula of when it is not to show all
 ESSENTIAL = frozenset((
-    "mobility", "bearing_force_x", "bearing_force_y", "big_end_load", "small_end_load",
+    "mobility", "bearing_force_x", "bearing_force_y", "small_end_load", "big_end_inertia_force", "piston_pin_force",
+    "rod_centre_distance", "rod_length", "rod_ratio", "rod_small_end_mass", "rod_big_end_mass", "diagram_pressure",
     "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",
-    "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure",
-    "compression_temperature", "combustion_celsius", "combustion_pressure", "expansion_pressure",
-    "expansion_temperature", "theoretical_mean_pressure", "indicated_mean_pressure", "effective_mean_pressure",
-    "effective_power", "effective_torque", "burnt_fraction", "pressure_rise", "swept_volume", "clearance_volume",
-    "indicated_work", "indicated_power", "reciprocating_mass", "rotating_mass", "gas_force", "inertia_force",
-    "piston_force", "side_force", "rod_force", "radial_force", "tangential_force", "crank_torque", "total_torque",
+    "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure", "air_amount_needed",
+    "fresh_charge_amount", "fresh_charge_heat", "molar_change_ideal", "molar_change", "working_mixture_heat",
+    "mixture_heat", "product_heat_constant", "product_heat_slope", "product_heat_constant_pressure",
+    "combustion_energy", "combustion_temperature", "compression_temperature", "combustion_celsius",
+    "combustion_pressure", "pressure_rise_ratio", "afterexpansion", "expansion_pressure", "expansion_temperature",
+    "theoretical_mean_pressure", "indicated_mean_pressure", "effective_mean_pressure", "effective_power",
+    "effective_torque", "burnt_fraction", "pressure_rise", "swept_volume", "clearance_volume", "indicated_work",
+    "indicated_power", "reciprocating_mass", "rotating_mass", "gas_force", "inertia_force", "piston_force",
+    "side_force", "rod_force", "radial_force", "tangential_force", "crank_torque", "total_torque",
     "mean_total_torque", "mean_driving_torque", "mean_torque", "firing_interval", "crankpin_radial_force",
     "crankpin_tangential_force", "crankpin_load", "mean_crankpin_load", "main_journal_load", "bearing_pressure_max",
     "order_inertia_force", "free_force", "free_moment", "counterweight_moment", "excess_work", "flywheel_inertia",
@@ -60,6 +64,8 @@ ESSENTIAL = frozenset((
     "motor_ratio", "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle", "turning_moment",
     "stroke_work", "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
+# masses of a rod, which stand with those that they are parts of
+_OF_ROD = ("rod_small_end_mass", "rod_big_end_mass", "rod_centre_distance")
 # height of the figures of a linkage over that elsewhere
 _LOWER = 0.62
 # significant digits of the values of a note that does not show all
@@ -86,7 +92,7 @@ _SMALL = frozenset((
 ))  # fmt: skip
 # those that are large enough where nothing stands beside them either
 _ROUND = frozenset(("crankpin_wear",))
-_LOW, _HALF = ChartLayout(tall=0.7), ChartLayout(width=267.0, left=64.0, right=10.0, tall=0.6)
+_LOW, _HALF = ChartLayout(tall=0.65), ChartLayout(width=267.0, left=64.0, right=10.0, tall=0.6)
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
@@ -134,6 +140,13 @@ class Material:
         return self.options.order
 
     @property
+    def has_free_moments(self) -> bool:
+        """Whether inertia forces of the cylinders make a moment."""
+        listing = self.results.listings.get("balance")
+        moments = None if listing is None else listing.columns.get("free_moment")
+        return moments is not None and bool(np.any(np.nan_to_num(moments)))
+
+    @property
     def has_piston(self) -> bool:
         """Whether the motion of a piston is known, which has formulas of its own."""
         return "piston_displacement" in self.results.columns
@@ -153,6 +166,10 @@ class Material:
         """Whether forces are divided by the piston area; notes of the Vietnamese school do so where they can."""
         return self.has_piston and (self.options.per_area or (self.order == "vi" and "piston_area" in self.summary))
 
+    def area(self, key: str) -> float | None:
+        """Return the piston area by which tables divide a quantity, None where they do not. [m2]"""
+        return self.summary["piston_area"] if self.per_area and is_per_area(key) else None
+
     @cached_property
     def words(self) -> Words:
         """The words of the language."""
@@ -162,6 +179,7 @@ class Material:
             period=self.results.period,
             is_partial="crank_range" in self.results.summary,
             has_names=not self.has_piston,
+            digits=5 if self.has_piston and self.full else 4,
         )
 
     @cached_property
@@ -254,9 +272,11 @@ class Material:
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
         if not self.full:
-            # places of points stand with the motion
+            selected = list(in_one_formula(selected)) if self.has_piston else selected
+            # places of points stand with the motion, masses of the rod with the others
             places = () if group in ("motion", "driver") else ("point_x", "point_y")
-            selected = [row for row in selected if _kind(row) in ESSENTIAL and _kind(row) not in places]
+            elsewhere = (*places, *(() if group == "masses" else _OF_ROD))
+            selected = [row for row in selected if _kind(row) in ESSENTIAL and _kind(row) not in elsewhere]
             # the derivative of a sum is that of its terms
             selected = [row for row in selected if not row.key.startswith("reduced_inertia_1.")]
         # of families, such as the journals of a shaft, a table has the others
@@ -277,12 +297,13 @@ class Material:
             self._formulas |= {_formula_name(step) for step in lines if step.key in TRANSFER}
             lines = in_one_formula(lines)
         for line in map(self._plain, lines):
-            mark = _identity(line) if self.has_piston else (line.key, line.value)
+            mark = _identity(line, by_name=self.full) if self.has_piston else (line.key, line.value)
             if mark in self._shown and not again:
                 continue
             self._shown.add(mark)
-            defined = line.key if isinstance(line, ValueLine) and self.has_piston and not again else ""
-            area = self.summary["piston_area"] if self.per_area and is_per_area(line.key) else 0.0
+            has_definition = self.has_piston and (not again or line.key == "excess_work.exact")
+            defined = line.key if isinstance(line, ValueLine) and has_definition else ""
+            area = self.area(line.key) or 0.0
             symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
             blocks.append(Equation(line, symbol=symbol, defined=defined, area=area, digits=self.digits))
             self._keys.add(line.key)
@@ -292,14 +313,15 @@ class Material:
     def _plain(self, line: Line) -> Line:
         """Return a line of the cycle, values without the mark of the cycle where the diagram gives the same."""
         if isinstance(line, FormulaLine):
-            named = [(name, kind) for name, key in line.named if (kind := self._kind(key, line.values[name])) != key]
+            named = [(name, kind) for name, key in line.named if (kind := self.of_cycle(key)) != key]
             if named:
                 line = line._replace(named=tuple({**dict(line.named), **dict(named)}.items()))
-        return line._replace(key=self._kind(line.key, line.value))
+        return line._replace(key=self.of_cycle(line.key))
 
-    def _kind(self, key: str, value: float) -> str:
+    def of_cycle(self, key: str) -> str:
+        """Return a key without the mark of the cycle where the value is the same without it."""
         kind, name = key_of(key)
-        same = name == "cycle" and math.isclose(value, self.summary.get(kind, math.nan))
+        same = name == "cycle" and math.isclose(self.summary.get(key, math.inf), self.summary.get(kind, math.nan))
         return kind if same else key
 
     def is_shown(self, key: str) -> bool:
@@ -402,6 +424,8 @@ class Material:
         pins = crankpins(name, self.results.columns)
         engine = self.machine.engine
         several = engine is not None and len({place.throw for place in engine.layout.places}) > 1
+        if name == "balance_orders" and not self.has_free_moments:
+            return capital(translate("figures.balance_forces", self.words.language))
         if not pins or not several:
             return capital(figure_title(name, self.words.language))
         title = figure_title(kind_of(name), self.words.language)
@@ -426,10 +450,12 @@ def _kind(line: Line) -> str:
     return key_of(line.key).quantity
 
 
-def _identity(line: Line) -> tuple[object, ...]:
-    """Return the mark that equal lines share."""
+def _identity(line: Line, *, by_name: bool) -> tuple[object, ...]:
+    """Return the mark that equal lines share; `by_name`: also those of two quantities with one formula differ."""
     if not isinstance(line, FormulaLine):
         return (line.key, line.value)
+    if not by_name:
+        return (str(line.expression), *line.values.values())
     mark = key_of(line.key).owner
     return (line.formula.name, *line.values.values(), "" if mark == "cycle" else mark)
 
@@ -521,10 +547,14 @@ def _range(key: str, shown: Material) -> str:
 
 
 def in_one_formula(lines: Iterable[Line]) -> Iterator[Line]:
-    """Yield lines, the transfer functions of the piston put into what follows from them: v = R ω (sin φ + ...)."""
+    """Yield lines, what they only pass on put into them: v = R ω (sin φ + ...), β = arcsin(λ sin φ)."""
     all_lines = list(lines)
     known = {item.key: item for item in all_lines if isinstance(item, FormulaLine)}
     joined: dict[str, FormulaLine | None] = {}
+    if "rod_angle" in known and "rod_sine" in known:
+        sine = known["rod_sine"]
+        tree = Operation(np.arcsin, (sine.expression,))
+        joined["rod_angle"] = known["rod_angle"]._replace(values=sine.values, tree=tree, named=sine.named)
     for key, factor in _OF_TRANSFER.items():
         line, transfer = known.get(key), known.get(factor)
         if line is not None and transfer is not None and (product := _joined(line, transfer)) is not None:
@@ -544,9 +574,12 @@ def _joined(line: FormulaLine, transfer: FormulaLine) -> FormulaLine | None:
             | Operation(operator.truediv, (Operation(operator.mul, (first, second)), _)) as whole,
         ):
             factor: Expression = Operation(operator.mul, (first, speed))
-            if whole.function is operator.truediv:
-                factor = Operation(operator.truediv, (factor, whole.operands[1]))
+            divided = whole.function is operator.truediv
+            if divided and isinstance(whole.operands[1], Number):
+                factor, divided = Operation(operator.truediv, (factor, whole.operands[1])), False
             tree = Operation(operator.mul, (factor, second))
+            if divided:
+                tree = Operation(operator.truediv, (tree, whole.operands[1]))
             values = {key: value for key, value in line.values.items() if key != name}
             named = (*transfer.named, *(symbol for symbol in line.named if symbol[0] != name))
             return line._replace(values={**transfer.values, **values}, tree=tree, named=named)

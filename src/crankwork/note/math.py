@@ -156,10 +156,30 @@ def _run_together(left: Box, right: Box) -> bool:
 
 
 def _quotient(left: Expression, right: Expression, printing: _Printing) -> tuple[Box, int]:
-    """Return a fraction; in an exponent one with a slash."""
+    """Return a fraction; in an exponent, and in a sum above or below another, one with a slash."""
     if printing.inline:
         return row(_wrapped(left, _PRODUCT, printing), Sign("/", "slash"), _wrapped(right, _POWER, printing)), _PRODUCT
-    return Fraction(_box(left, printing)[0], _box(right, printing)[0]), _POWER
+    left, below = _parted(left)
+    boxes = [
+        _box(part, printing._replace(inline=isinstance(part, Operation) and part.function in _SUMS))[0]
+        for part in (left, right if below is None else Operation(operator.mul, (below, right)))
+    ]
+    return Fraction(*boxes), _POWER
+
+
+def _parted(tree: Expression) -> tuple[Expression, Expression | None]:
+    """Return the numerator and the denominator of a product with fractions in it, None where there are none."""
+    match tree:
+        case Operation(operator.truediv, (left, right)):
+            above, below = _parted(left)
+            return above, right if below is None else Operation(operator.mul, (below, right))
+        case Operation(operator.mul, (left, right)):
+            (first_above, first_below), (second_above, second_below) = _parted(left), _parted(right)
+            below = second_below if first_below is None else first_below
+            if first_below is not None and second_below is not None:
+                below = Operation(operator.mul, (first_below, second_below))
+            return Operation(operator.mul, (first_above, second_above)), below
+    return tree, None
 
 
 def _power(base: Expression, exponent: Expression, printing: _Printing) -> Box:

@@ -25,7 +25,7 @@ from crankwork.note.document import (
     Table,
 )
 from crankwork.quantities import Language
-from crankwork.sources import source_language, sources
+from crankwork.sources import school_source, source_language, sources
 
 
 class Numbering(NamedTuple):
@@ -56,12 +56,12 @@ class Numbering(NamedTuple):
             case Reference(label):
                 return self.reference(label)
             case Citation(source):
-                return self.citation(source)
+                return self.citation(school_source(source, self.language))
         return run
 
     def mark(self, block: Equation, number: str, between: str = "\u2002") -> str:
         """Return the source and the number of an equation, printed beside it."""
-        source = equation_source(block) if block.cites else ""
+        source = equation_source(block, self.language) if block.cites else ""
         return between.join(([self.citation(source)] if source else []) + ([f"({number})"] if number else []))
 
 
@@ -101,13 +101,11 @@ def _plain_number(block: Block, counts: Counter[str]) -> str:
     return str(counts[kind])
 
 
-def equation_source(block: Equation) -> str:
-    """Return the source of the formula of an equation, empty where it has none."""
+def equation_source(block: Equation, language: Language) -> str:
+    """Return the source of the formula of an equation in the school of a language, empty where it has none."""
     match block.step:
-        case FormulaLine(formula=formula):
-            return formula.source
-        case Formula(source=source):
-            return source
+        case FormulaLine(formula=formula) | (Formula() as formula):
+            return school_source(formula.source, language, formula.quantity)
     return ""
 
 
@@ -124,11 +122,11 @@ def _source_numbers(note: Note) -> dict[str, int]:
 def _cited(note: Note) -> Iterator[str]:
     """Yield the sources in the order in which the text comes to them."""
     for block in note.blocks:
-        if isinstance(block, Equation) and equation_source(block):
-            yield equation_source(block)
+        if isinstance(block, Equation) and (source := equation_source(block, note.language)):
+            yield source
         for run in _runs(block):
             if isinstance(run, Citation):
-                yield run.source
+                yield school_source(run.source, note.language)
 
 
 def _runs(block: Block) -> Iterator[Run]:

@@ -118,6 +118,8 @@ _OFF = 0.01
 _TURNED, _TURNED_END = "#page(flipped: true)[\n", "\n]"
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
+# columns of a table whose parts stand side by side
+_SEVERAL_PARTS = 8
 # height of a line of a table [em], and what is free above and below it [pt]
 _LINE, _INSET = 0.66, 2.6
 # a word that may be wider than a column of the cover
@@ -246,7 +248,7 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
-    sizes = SIZES[len(block.rows) > TOGETHER :]
+    sizes = SIZES[len(block.rows) > TOGETHER or count >= _SEVERAL_PARTS or block.half :]
     size = next((letters for letters in sizes if fits(block.headings, block.rows, letters, room(block))), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
     is_kept = is_whole(block)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankwork.note.document import Paragraph
+from crankwork.note.document import Citation, Paragraph
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import own_name
 from crankwork.report.display import key_unit, row_name
@@ -36,6 +36,8 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
 ROUNDING = 1e-9
 # vectors of plans that are long enough to be read well [mm]
 LEGIBLE = 10.0
+# where usual values of the working cycle stand
+_USUAL = "kolchin_demidov_2008, ch. 3"
 # the sum of a force along the axis of a cylinder
 _PARTS = ("gas_force", "inertia_force")
 
@@ -49,11 +51,12 @@ def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
         return None
     words, values = material.words, dict[str, str]()
     for key, (value, angle) in known.items():
-        area = material.summary["piston_area"] if material.per_area and kind.endswith("_forces") else 1.0
-        values[key] = words.amount(value / area, key_unit(key, per_area=area != 1.0), digits=4)
+        area = material.area(key)
+        values[key] = words.amount(value / (area or 1.0), key_unit(key, per_area=area is not None), digits=4)
         if angle is not None:
-            values[f"{key}_angle"] = words.amount(angle, "deg", digits=4)
+            values[f"{key}_angle"] = words.angle(angle)
     if kind == "piston_forces":
+        area = material.area("gas_force") or 1.0
         for end in ("max", "min"):
             angle = known[f"piston_force_{end}"][1]
             parts = material.results.columns_at(np.array([math.degrees(angle or 0.0)]), _PARTS)
@@ -96,7 +99,7 @@ def _of_joints(material: Material) -> Paragraph | None:
         "reads_joint_forces",
         name=own_name("joint_force", key_of(key).owner),
         value=words.amount(forces[key], key_unit(key), digits=4),
-        angle=words.amount(angle, "deg", digits=4),
+        angle=words.angle(angle),
     )
 
 
@@ -107,9 +110,9 @@ def concluded(material: Material) -> Iterator[Paragraph]:
     sentences = [
         reading(kind, material) for kind in (output, "range_of_piston_forces", "total_torque", "crankpin_bearing")
     ]
-    if material.cycle:
+    if "residual_temperature_deviation" in summary:
         odd = [notice for notice in results.notices if {"low", "high"} <= notice.values.keys()]
-        sentences.insert(1, words.paragraph("reads_cycle_odd" if odd else "reads_cycle"))
+        sentences.insert(1, words.paragraph("reads_cycle_odd" if odd else "reads_cycle", source=Citation(_USUAL)))
     if "bearing_loads" in results.listings and material.has_engine:
         sentences.append(_of_mains(material))
     sentences.append(reading("evenness", material))
@@ -182,5 +185,5 @@ def _of_mains(material: Material) -> Paragraph | None:
         "reads_mains",
         name=row_name(listing.names[row], words.language),
         value=words.amount(float(load[row]), key_unit("bearing_load_max"), digits=4),
-        angle=words.amount(float(angle[row]), "deg", digits=4),
+        angle=words.angle(float(angle[row])),
     )

@@ -71,18 +71,19 @@ _LINKAGE = (
 _FULL = ("bearings",)
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
-        "summary", "data", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains", "balance",
-        "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+        "summary", "data", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin",
+        "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
-        "summary", "data", "cycle", "indicator", "displacement", "velocity", "acceleration", "inertia",
-        "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness", "motor",
-        "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+        "summary", "data", "nomenclature", "cycle", "indicator", "displacement", "velocity", "acceleration",
+        "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness",
+        "motor", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     "en": (
-        "summary", "data", "method", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains",
-        "balance", "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+        "summary", "data", "method", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque",
+        "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
+        "appendix",
     ),
 }  # fmt: skip
 # every section of a note; of several with one name the first whose condition holds
@@ -120,7 +121,7 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
         chosen = (*chosen, *(name for name in ("nomenclature", "sources") if name not in chosen))
     known = sections_of(material)
     parts = itertools.chain.from_iterable(known[name].parts for name in chosen or _order(material) if name in known)
-    blocks = tuple(_with_nomenclature(_cited_once(written(parts, material)), material))
+    blocks = tuple(_with_nomenclature(_cited_once(written(parts, material), material.words.language), material))
     made, subtitle = _titles(material)
     own, title_page = (
         getattr(document, f"title_{options.language}"),
@@ -142,13 +143,13 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     )
 
 
-def _cited_once(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield blocks, where each equation cites its source unless the one before from a source had the same."""
-    last = ""
+def _cited_once(blocks: Iterable[Block], language: Language) -> Iterator[Block]:
+    """Yield blocks, where an equation cites its source unless one before it had the same."""
+    cited = set[str]()
     for block in blocks:
-        source = equation_source(block) if isinstance(block, Equation) else ""
-        yield replace(block, cites=False) if isinstance(block, Equation) and source == last else block
-        last = source or last
+        source = equation_source(block, language) if isinstance(block, Equation) else ""
+        yield replace(block, cites=False) if isinstance(block, Equation) and source in cited else block
+        cited.add(source)
 
 
 def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[Block]:

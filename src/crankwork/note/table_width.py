@@ -11,8 +11,8 @@ from crankwork.show.scene import CAP_HEIGHT, text_width
 
 # of the text on a page upright, half of it, and on its side, and beside the text of each column [pt]
 PAGE, HALF_PAGE, WIDE_PAGE, _SIDES = 480.0, 231.0, 725.0, 8.0
-# rows of a table beside a figure
-_FEW = 20
+# rows of a table beside a figure, and columns among which words have little room there
+_FEW, _MANY = 20, 5
 # of letters of tables [pt]
 SIZES = (10.0, 9.0, 8.0)
 # of a digit, a letter of a word and a space [em]
@@ -26,7 +26,11 @@ def room(table: Table) -> float:
 
 def is_narrow(table: Table) -> bool:
     """Return whether a table is read at half the width of the text."""
-    return len(table.rows) <= _FEW and fits(table.headings, table.rows, SIZES[-1], HALF_PAGE)
+    if len(table.rows) > _FEW or not fits(table.headings, table.rows, SIZES[-1], HALF_PAGE):
+        return False
+    # words of many columns would stand one below the other
+    many = len(table.headings) > _MANY
+    return not many or bool(one_line_widths(table.headings, table.rows, SIZES[-1], HALF_PAGE))
 
 
 def fits(headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, page: float = PAGE) -> bool:

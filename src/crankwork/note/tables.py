@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array
+from crankwork.analysis.results import Listing
 from crankwork.locale import has_text
 from crankwork.note.document import Block, Cell, Math, Run, Runs, Table
 from crankwork.note.material import Material
@@ -129,7 +130,9 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
         # a row of nothing but rounding is left to the full note
         sizes = [np.abs(np.nan_to_num(values)) for values in listing.columns.values() if values.dtype.kind == "f"]
         seen = [k for k in rows if any(size[k] > _NOISE * size.max() for size in sizes)]
-        rows = seen or rows
+        rows = [
+            k for n, k in enumerate(seen) if not any(_are_equal_rows(listing, k, other) for other in seen[:n])
+        ] or rows
     if listing.names:
         columns.append(Column((words.column("row"),), [_row_text(listing.names[k], words) for k in rows]))
     for key, values in listing.columns.items():
@@ -139,6 +142,12 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
         elif not (listing.names and material.has_piston) or np.any(np.nan_to_num(values[rows])):
             columns.append(quantity_column(material, key, values[rows] if listing.names else values))
     return column_table(caption, columns, words, "l" if listing.names else "c")
+
+
+def _are_equal_rows(listing: Listing, row: int, other: int) -> bool:
+    """Return whether two rows of a table of results have the same numbers."""
+    columns = (values for values in listing.columns.values() if values.dtype.kind == "f")
+    return bool(listing.names) and all(np.isclose(values[row], values[other], equal_nan=True) for values in columns)
 
 
 def _row_text(name: str, words: Words) -> str:
@@ -169,7 +178,7 @@ def value_row(key: str, value: float, words: Words, *, area: float | None = None
     return (
         label(key, words.language),
         Math(words.symbol(key)),
-        words.number(displayed(key, value, per_area=area), digits=digits),
+        words.number(displayed(key, value, per_area=area), digits=min(digits, words.digits) if area else digits),
         printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
     )
 

@@ -32,7 +32,7 @@ class Words:
 
     `per_area`: whether forces are divided by the piston area; `period`: of the law that drives, where positions are
     times [s]; `is_partial`: whether the crank goes to and fro between dead positions; `has_names`: whether links,
-    points and chambers have names, which symbols tell.
+    points and chambers have names, which symbols tell; `digits`: of the largest value of a column.
     """
 
     def __init__(
@@ -43,9 +43,11 @@ class Words:
         period: float = 0.0,
         is_partial: bool = False,
         has_names: bool = True,
+        digits: int = 4,
     ) -> None:
         self.language: Language = language
         self.per_area, self.period, self.is_partial, self.has_names = per_area, period, is_partial, has_names
+        self.digits = digits
 
     def title(self, key: str) -> str:
         """Return the words of a heading."""
@@ -137,6 +139,10 @@ class Words:
         shown = self.number(float(from_si(value, unit)) if unit else value, digits=digits)
         return shown + ("" if not name or name in _TIGHT else "\u00a0") + name
 
+    def angle(self, value: float) -> str:
+        """Return an angle [rad] to a tenth of a degree."""
+        return self.number(round(math.degrees(value), 1) + 0.0) + "°"
+
     def shown(self, key: str, value: float, *, digits: int = 6) -> str:
         """Return a value in SI in the unit in which tables show its key."""
         return self.number(displayed(key, value), digits=digits)
@@ -156,7 +162,7 @@ class Words:
 
     def meaning(self, name: str) -> str:
         """Return the meaning of a key of the machine file, or the key itself if it has no text."""
-        key = FILE_KEYS.get(name, name)
+        key = FILE_KEYS.get(name.removeprefix("engine."), name)
         if key in QUANTITIES:
             return QUANTITIES[key].label(self.language)
         return translate(f"report.{key}", self.language) if has_text(f"report.{key}") else key
@@ -165,7 +171,7 @@ class Words:
         self, values: Sequence[float], *, digits: int | None = None, decimals: int | None = None
     ) -> list[str]:
         """Return numbers of one column, all with as many decimals as give the largest that many digits."""
-        digits = digits or (4 if self.has_names else 5)
+        digits = digits or self.digits
         known = [abs(value) for value in values if value == value]  # noqa: PLR0124 - not a number
         largest = max(known, default=0.0)
         if decimals is None:

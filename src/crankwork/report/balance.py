@@ -135,11 +135,13 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         key: max((max(heights.values(), default=0.0) for heights in sizes[key].values()), default=0.0) for key in sizes
     }
     panels = [panel for panel in sizes if most[panel] > _free(engine, panel)] or ["force"]
-    texts = [translate(f"report.{kind}", language) for kind in kinds]
+    # of what has no bar nothing is told
+    seen = [kind for kind in kinds if any(max(sizes[panel][kind].values()) > 0.002 * most[panel] for panel in panels)]
+    texts = [translate(f"report.{kind}", language) for kind in seen or kinds]
     head = 13.4 * (1 + _swatch_places(texts)[-1][1] + len(sizes) - len(panels)) + 5
     height = scaled_height(150.0)
     paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
-    swatches(paper, texts, fills)
+    swatches(paper, texts, [order.index(kind) for kind in seen or kinds])
     for panel in (panel for panel in sizes if panel not in panels):
         key = f"free_{panel}"
         # of forces that cancel rounding is left

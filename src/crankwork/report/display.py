@@ -39,6 +39,7 @@ FILE_KEYS = {
     "filling": "filling_factor",
     "pressure_ratio": "pressure_rise_ratio",
     "mechanical_loss": "mechanical_loss_pressure",
+    "spacing": "balance_pitch",
 }
 # values that are those of a whole column, and parts of keys
 _EXTREMES = ("max", "min")
