@@ -125,10 +125,6 @@ def _gear_ratios(material: Material) -> Iterator[Block]:
     yield words.table("gear_ratios", (*titles, words.titled("motor_ratio")), rows, "rrr", "gear_ratios")
 
 
-def _wanted(material: Material) -> str:
-    return material.words.number(material.machine.drive.fluctuation or 0.0)
-
-
 def _is_wanted(material: Material) -> bool:
     """Return whether a fluctuation of the speed is wanted, for which a flywheel is found."""
     return material.machine.drive.fluctuation is not None
@@ -139,7 +135,10 @@ def _is_alone(material: Material) -> bool:
     return engine is not None and len(engine.layout.places) == 1
 
 
-_FOUND: tuple[Part, ...] = (Text("flywheel", {"value": _wanted}), _by_methods)
+_FOUND: tuple[Part, ...] = (
+    Text("flywheel", {"value": lambda material: material.words.number(material.machine.drive.fluctuation or 0.0)}),
+    _by_methods,
+)
 _OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
 _FIGURES = ("excess_work", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")
