@@ -12,7 +12,7 @@ from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
 from crankwork.note import balance, bearings
-from crankwork.note.data import GEAR, cycle_keys
+from crankwork.note.data import GEAR, cycle_keys, link_lengths
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
@@ -206,7 +206,11 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     if film is not None:
         title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
-        yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
+        sentences = words.sentence("machine_drawn", figure=Reference("f:machine"), value=place)
+        lengths = link_lengths(material) if drawn(material) else ""
+        if lengths:
+            sentences += (" ", *words.sentence("machine_lengths", unit=words.unit("point_x"), lengths=lengths))
+        yield Paragraph(sentences)
         yield Figure(film.still(), title, film.about or title, label="f:machine", high=_HIGHEST)
     # a linkage has a joint there
     numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]

@@ -36,7 +36,7 @@ from crankwork.note.parts import (
     works,
 )
 from crankwork.note.tables import position_tables, quantity_column
-from crankwork.note.torque import HARMONICS
+from crankwork.note.torque import HARMONICS, ONE
 from crankwork.quantities.key import key_of
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
@@ -130,11 +130,6 @@ def _is_wanted(material: Material) -> bool:
     return material.machine.drive.fluctuation is not None
 
 
-def _is_alone(material: Material) -> bool:
-    engine = material.machine.engine
-    return engine is not None and len(engine.layout.places) == 1
-
-
 _FOUND: tuple[Part, ...] = (
     Text("flywheel", {"value": lambda material: material.words.number(material.machine.drive.fluctuation or 0.0)}),
     _by_methods,
@@ -152,7 +147,7 @@ SECTIONS = (
         When(_IS_EXACT, _FOUND),
         When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),
         When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _OF_ENERGY_AND_SPEED),)),)),
-        When(every(full, _is_alone), HARMONICS),
+        When(every(full, ONE), HARMONICS),
     ), has("piston_displacement", "excess_work")),
     Section("energy", (
         Head("energy_extremes"),

@@ -85,7 +85,7 @@ def _plans(data: Positions, moved: SampledMotion) -> Pictures:
         ),
         "scales": partial(scales_table, data, scales, {"v": moves, "a": chosen}),
     }
-    if comparable(data):
+    if any(joint != data.shape.pin for joint in _joints(data, "point_velocity")):
         plans["compared"] = partial(compared_table, data, scales, [row for row in chosen if row in moves])
     return plans
 
@@ -272,8 +272,3 @@ def _share(value: float, language: Language) -> str:
 def _read(value: float, scale: float) -> float:
     """Return the length of a vector as it is read on paper. [mm]"""
     return round(value / scale, _READING) if scale == scale else 0.0  # noqa: PLR0124 - not a number
-
-
-def comparable(data: Positions) -> bool:
-    """Return whether there is a point whose velocities can be read on plans."""
-    return any(joint != data.shape.pin for joint in _joints(data, "point_velocity"))
