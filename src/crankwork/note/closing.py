@@ -66,9 +66,8 @@ _SAME = {
     "shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",), "indicated_power": ("effective_power",),
     "flywheel_inertia.exact": ("flywheel_inertia",),
 }  # fmt: skip
-_GLANCE = 10
-# sentences of a conclusion that needs no table
-_FEWEST = 3
+# rows of the first table, and sentences of a conclusion that needs no table
+_GLANCE, _FEWEST = 10, 3
 # the machine and its main results stand on one page [mm]
 _HIGHEST = 85.0
 
@@ -252,11 +251,11 @@ def _conclusion(material: Material) -> Iterator[Block]:
     """Yield what the results mean; where few sentences say it, and in the full note of a linkage, a table as well."""
     read = concluded(material) if material.has_piston else concluded_of_linkage(material)
     sentences = tuple(paragraph.runs for paragraph in read)
-    if sentences:
-        yield ItemList(sentences)
     if not material.has_piston and (material.full or len(sentences) < _FEWEST):
         yield material.words.paragraph("conclusion", table=Reference("t:summary"))
         yield value_table("summary", [_row(material, key) for key in _main_keys(material)], material.words)
+    if sentences:
+        yield ItemList(sentences)
 
 
 def _main_keys(material: Material) -> list[str]:

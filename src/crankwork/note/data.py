@@ -171,7 +171,7 @@ def _task(material: Material) -> Iterator[Block]:
         radius=words.amount(crank.radius, "mm"),
         direction=turning,
         start=words.amount(crank.start, "deg"),
-        value=words.amount(material.results.solved.speed, "rad/s"),
+        value=words.amount(material.results.solved.speed, "rad/s", digits=material.digits),
     )
     for geared in crank.geared:
         yield words.paragraph("geared_crank", name=words.part(geared.link), ratio=words.number(geared.ratio))

@@ -116,10 +116,12 @@ _INSTANT_CENTRES = When(lambda material: material.full and bool(material.of_axes
     Head("instant_centres", 2), Text("instant_centres", {"source": Citation(_CENTRES)}), At("instant_centres"),
     Lines("instant_centres"), Places("instant_centres", _centres),
 ))  # fmt: skip
+_OF_PIN = {"along": "x₁ + ξ₁ cos φ₁ − η₁ sin φ₁ = x₂ + ξ₂ cos φ₂ − η₂ sin φ₂",
+           "across": "y₁ + ξ₁ sin φ₁ + η₁ cos φ₁ = y₂ + ξ₂ sin φ₂ + η₂ cos φ₂"}  # fmt: skip
 # how groups are solved that are no dyads
 _LOOPS = When(
     lambda material: any(isinstance(group, Chain) for group in material.machine.mechanism.dyads),
-    (Text("loop_equations"),),
+    (Text("loop_equations", _OF_PIN),),
 )
 _POLYGONS: tuple[Part, ...] = (Head("polygons", 2), Text("plan_numbers", {"table": Reference("links")}))
 SECTIONS = (
