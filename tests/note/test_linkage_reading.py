@@ -5,9 +5,13 @@ import re
 import numpy as np
 import pytest
 
+import crankwork
 from crankwork.analysis.vector_polygons import worked_position
+from crankwork.note.contents import note_of
 from crankwork.note.document import Equation, Heading, Paragraph
 from crankwork.note.layout import Digits, Fence, Fraction, Root, Row, Script, Sign, Upright
+from crankwork.note.options import NoteOptions
+from crankwork.report.display import link_label
 from each import for_each
 from notes import blocks, note, printed, results, tables, words
 
@@ -131,3 +135,46 @@ def test_reactions_read_on_force_plans_are_those_of_the_calculation(name):
         assert any(size * unit == pytest.approx(one, rel=1e-3) for one in sizes), size
         assert abs(read - size) <= 1.5 * read / length
         assert share == pytest.approx(100 * (read / size - 1), abs=0.1)
+
+
+def test_the_first_drawing_has_the_lengths_of_its_links():
+    (said,) = sentences("press-geometry", "Размеры в")
+    assert said.endswith("OA 50; AB 600; CB 210.")
+
+
+TRIAD = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+E = ["200 mm", "500 mm"]
+F = ["260 mm", "400 mm"]
+
+[crank]
+pivot = "O"
+pin = "A"
+radius = "30 mm"
+speed = "60 rpm"
+
+[links]
+rod = { joins = ["A", "B"], length = "123.69 mm" }
+plate = { joins = ["B", "C"], length = "86.02 mm", points = { D = ["-36.04 mm", "-87.19 mm"] } }
+arm = { joins = ["C", "E"], length = "400 mm" }
+leg = { joins = ["D", "F"], length = "453.98 mm" }
+
+[positions]
+B = ["150 mm", "30 mm"]
+C = ["200 mm", "100 mm"]
+D = ["200 mm", "-50 mm"]
+"""
+
+
+def test_a_group_of_class_iii_has_its_equations():
+    triad = crankwork.analyse(crankwork.read_machine(TRIAD))
+    found = note_of(triad, NoteOptions(language="ru", figures=False))
+    said = ["".join(run for run in one.runs if isinstance(run, str)) for one in blocks(found, Paragraph)]
+    assert any("x₁ + ξ₁ cos φ₁ − η₁ sin φ₁ = x₂ + ξ₂ cos φ₂ − η₂ sin φ₂" in text for text in said)
+    assert not any("x₁ + ξ₁" in text for text in sentences("press-geometry", ""))
+
+
+def test_links_with_a_number_have_words_of_the_language():
+    assert [link_label("rod_1", language) for language in ("en", "ru", "vi")] == ["rod 1", "шатун 1", "thanh truyền 1"]
+    assert link_label("rod_of_mine", "ru") == "rod_of_mine"

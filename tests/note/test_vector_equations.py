@@ -53,6 +53,10 @@ def test_the_printed_vectors_of_an_equation_add_up(name):
 def test_the_difference_is_that_of_both_columns_and_of_the_size_of_a_reading(name):
     for key in ("compared_velocities", "compared_accelerations"):
         for row in tables(note(name, "ru"))[key].rows:
+            if row[3] == "–":
+                # too short to be compared
+                assert number(row[2]) <= 2
+                continue
             drawn, exact = number(row[3]), number(row[4])
             if row[6] != "–":
                 assert number(row[6]) == pytest.approx(

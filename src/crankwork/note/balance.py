@@ -18,8 +18,6 @@ from crankwork.note.wording import in_display_unit, named
 from crankwork.quantities.key import key_of
 
 _BALANCE = "den_hartog_1956, ch. 5"
-# significant digits of what is put into the unbalance of a counterweight
-_DIGITS = 5
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _OF_ORDERS = (
     "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force", "moment_factor", "free_moment",
@@ -62,9 +60,9 @@ def _counterweight(material: Material) -> Iterator[Block]:
     for first, second, sign in (("x,c", "y,s", driver.direction), ("y,c", "x,s", -driver.direction)):
         names = [symbol_box(f"{words.symbol('shaking_force')},{name}") for name in (first, second)]
         letters.append(layout.Fence(layout.row(names[0], layout.Sign("+" if sign > 0 else "−"), names[1])))
-        numbers.append(number_box(abs(waves[first] + sign * waves[second]), words.language, _DIGITS)[0])
+        numbers.append(number_box(abs(waves[first] + sign * waves[second]), words.language, material.digits + 1)[0])
     name, value, rate = symbol_box(words.symbol(key)), results.summary[key], symbol_box(words.symbol("speed"))
-    speed = number_box(results.solved.speed, words.language, _DIGITS)[0]
+    speed = number_box(results.solved.speed, words.language, material.digits + 1)[0]
     shown = value_box(value, "kg*m", words.language, material.digits)
     formula = layout.row(name, layout.EQUALS, _of_harmonic(letters, layout.PRODUCT, rate))
     worked = layout.row(layout.EQUALS, _of_harmonic(numbers, layout.DOT, speed), layout.EQUALS, shown)

@@ -11,7 +11,7 @@ from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
 from crankwork.note import balance, bearings
-from crankwork.note.data import GEAR, cycle_keys
+from crankwork.note.data import GEAR, cycle_keys, link_lengths
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
@@ -65,9 +65,8 @@ _SAME = {
     "shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",), "indicated_power": ("effective_power",),
     "flywheel_inertia.exact": ("flywheel_inertia",),
 }  # fmt: skip
-_GLANCE = 10
-# sentences of a conclusion that needs no table
-_FEWEST = 3
+# rows of the first table, and sentences of a conclusion that needs no table
+_GLANCE, _FEWEST = 10, 3
 # the machine and its main results stand on one page [mm]
 _HIGHEST = 85.0
 
@@ -204,7 +203,11 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     if film is not None:
         title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
-        yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
+        sentences = words.sentence("machine_drawn", figure=Reference("f:machine"), value=place)
+        lengths = link_lengths(material) if drawn(material) else ""
+        if lengths:
+            sentences += (" ", *words.sentence("machine_lengths", unit=words.unit("point_x"), lengths=lengths))
+        yield Paragraph(sentences)
         sizes = ("bore", "stroke", "crank_radius", "rod_length") if material.has_piston else ()
         known = [
             f"{words.symbol(key)} = {words.amount(summary[key], 'mm', digits=4)}" for key in sizes if key in summary
@@ -238,11 +241,11 @@ def _conclusion(material: Material) -> Iterator[Block]:
     """Yield what the results mean; where few sentences say it, and in the full note of a linkage, a table as well."""
     read = concluded(material) if material.has_piston else concluded_of_linkage(material)
     sentences = tuple(paragraph.runs for paragraph in read)
-    if sentences:
-        yield ItemList(sentences)
     if not material.has_piston and (material.full or len(sentences) < _FEWEST):
         yield material.words.paragraph("conclusion", table=Reference("t:summary"))
         yield value_table("summary", [_row(material, key) for key in _main_keys(material)], material.words)
+    if sentences:
+        yield ItemList(sentences)
 
 
 def _main_keys(material: Material) -> list[str]:

@@ -13,7 +13,7 @@ from crankwork.locale import translate
 from crankwork.machine import Bearings, Engine, TransferTable
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.linkage import Member
-from crankwork.mechanism.mechanism import Driver
+from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import links_of
 from crankwork.note.document import Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
@@ -37,7 +37,7 @@ _OF_ROD = ("rod_mass", "small_end_share", "rod_centre_distance", "rod_inertia", 
 _ELSEWHERE = ("cylinder_count", "displacement")
 
 
-_MOST_JOINTS = 3
+_PAIR, _MOST_JOINTS = 2, 3
 _MINUS = "\N{MINUS SIGN}"
 # torques on a shaft: table of the file, sentence, quantity, and how many points of one are listed
 _ACTING = (("torque", "drives", "turning_moment"), ("load", "resists", "load_torque"))
@@ -167,7 +167,7 @@ def _task(material: Material) -> Iterator[Block]:
         radius=words.amount(crank.radius, "mm"),
         direction=turning,
         start=words.amount(crank.start, "deg"),
-        value=words.amount(material.results.solved.speed, "rad/s"),
+        value=words.amount(material.results.solved.speed, "rad/s", digits=material.digits),
     )
     for geared in crank.geared:
         yield words.paragraph("geared_crank", name=words.part(geared.link), ratio=words.number(geared.ratio))
@@ -224,6 +224,18 @@ def _links(material: Material) -> Table:
     masses = (words.titled(key) for key in ("body_mass", "body_inertia"))
     length, centre = ((words.column(name, "mm"),) for name in ("length", "centre"))
     return words.table("links", ("number", "link", "joints", length, *masses, centre), rows, "clcrrrc", "links")
+
+
+def link_lengths(material: Material) -> str:
+    """Return the lengths of the crank and of links with two joints: `OA 50; AB 600`."""
+    words, linkage = material.words, material.machine.drawn
+    pairs = [[name for name in member.points if len(linkage.owners[name]) > 1] for member in linkage.members]
+    lengths = [f"{''.join(shared)} {_length(member, shared, words)}" for member, shared in
+               zip(linkage.members, pairs, strict=True) if len(shared) == _PAIR and not member.guide]  # fmt: skip
+    if isinstance(linkage.driver, Crank):
+        pivot = next((name for name, place in linkage.ground.items() if place == linkage.driver.pivot), "O")
+        lengths.insert(0, f"{pivot}{linkage.driver.pin} {words.shown('point_x', linkage.driver.radius)}")
+    return "; ".join(lengths)
 
 
 def _length(member: Member, shared: list[str], words: Words) -> str:

@@ -37,7 +37,7 @@ from crankwork.note.parts import (
     works,
 )
 from crankwork.note.tables import position_tables, quantity_column
-from crankwork.note.torque import HARMONICS
+from crankwork.note.torque import HARMONICS, ONE
 from crankwork.quantities.key import key_of
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
@@ -130,21 +130,22 @@ def _gear_ratios(material: Material) -> Iterator[Block]:
     yield words.table("gear_ratios", (*titles, words.titled("motor_ratio")), rows, "rrr", "gear_ratios")
 
 
-def _wanted(material: Material) -> str:
-    return material.words.number(material.machine.drive.fluctuation or 0.0)
-
-
 def _is_wanted(material: Material) -> bool:
     """Return whether a fluctuation of the speed is wanted, for which a flywheel is found."""
     return material.machine.drive.fluctuation is not None
 
 
-def _is_alone(material: Material) -> bool:
-    engine = material.machine.engine
-    return engine is not None and len(engine.layout.places) == 1
-
-
-_FOUND: tuple[Part, ...] = (When(either(full, drawn), (Text("flywheel", {"value": _wanted}),)), _by_methods)
+_FOUND: tuple[Part, ...] = (
+    When(
+        either(full, drawn),
+        (
+            Text(
+                "flywheel", {"value": lambda material: material.words.number(material.machine.drive.fluctuation or 0.0)}
+            ),
+        ),
+    ),
+    _by_methods,
+)
 _OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
 _FIGURES = ("excess_work", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")
@@ -158,7 +159,7 @@ SECTIONS = (
         When(_IS_EXACT, _FOUND),
         When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),
         When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _OF_ENERGY_AND_SPEED),)),)),
-        When(every(full, _is_alone), HARMONICS),
+        When(every(full, ONE), HARMONICS),
     ), has("piston_displacement", "excess_work")),
     Section("energy", (
         Head("energy_extremes"),

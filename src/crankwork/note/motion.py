@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.sampled_motion import transfer_ratios
 from crankwork.analysis.skeleton import skeleton
+from crankwork.mechanism.chain import Chain
 from crankwork.note.closing import errors
 from crankwork.note.document import Block, Citation, Reference, Run
 from crankwork.note.material import Material
@@ -115,6 +116,13 @@ _INSTANT_CENTRES = When(lambda material: material.full and bool(material.of_axes
     Head("instant_centres", 2), Text("instant_centres", {"source": Citation(_CENTRES)}), At("instant_centres"),
     Lines("instant_centres"), Places("instant_centres", _centres),
 ))  # fmt: skip
+_OF_PIN = {"along": "x₁ + ξ₁ cos φ₁ − η₁ sin φ₁ = x₂ + ξ₂ cos φ₂ − η₂ sin φ₂",
+           "across": "y₁ + ξ₁ sin φ₁ + η₁ cos φ₁ = y₂ + ξ₂ sin φ₂ + η₂ cos φ₂"}  # fmt: skip
+# how groups are solved that are no dyads
+_LOOPS = When(
+    lambda material: any(isinstance(group, Chain) for group in material.machine.mechanism.dyads),
+    (Text("loop_equations", _OF_PIN),),
+)
 _POLYGONS: tuple[Part, ...] = (Head("polygons", 2), Text("plan_numbers", {"table": Reference("links")}))
 SECTIONS = (
     # displacement, velocity and acceleration in one
@@ -146,7 +154,8 @@ SECTIONS = (
     # a driver with a law of its own
     Section("kinematics", (
         Head("linkage_kinematics"), Text("driven_positions", {"source": Citation(_POSITIONS)}),
-        Shown(("position_plans",)), At("driver"), Lines("driver"), Places("driver", _COORDINATE), Lines("motion"),
+        Shown(("position_plans",)), _LOOPS,
+        At("driver"), Lines("driver"), Places("driver", _COORDINATE), Lines("motion"),
         Places("positions", _positions), Places("velocities", _MOVING), Places("accelerations", _ACCELERATING),
         _INSTANT_CENTRES, Shown(("driver", "sliders")),
         When(draws("velocity_plan"), (*_POLYGONS, Shown(("velocity_plan", "acceleration_plan")))),
@@ -155,7 +164,7 @@ SECTIONS = (
         Head("linkage_kinematics"), Head("plans", 2), Text("positions"), Shown(("position_plans",)),
         Places("positions", _positions), When(full, (
             Head("transfer", 2), Text("transfer", {"source": Citation(_POSITIONS)}), _transfer,
-        )), *_POLYGONS, vector_plans,
+        )), *_POLYGONS, _LOOPS, vector_plans,
         When(either(full, lacks(has_vector_equations)), (
             Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion", first=True),
         )), Head("motion_tables", 2),

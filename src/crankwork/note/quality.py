@@ -11,7 +11,7 @@ from crankwork.note.material import Material
 from crankwork.note.parts import Section, drawn
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.tables import tabulated
-from crankwork.note.wording import Words, named
+from crankwork.note.wording import named
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit
 
@@ -101,9 +101,12 @@ def _worst(material: Material) -> Iterator[Block]:
     yield words.paragraph("worst_angles")
     for key, extreme in extremes if material.full else ():
         if extreme is not None:
-            symbol, place, unit = words.place(extreme.at)
-            name, value = key_of(key).owner, _with_unit(place, unit, words)
-            yield words.paragraph("worst_angle", name=words.part(name), place=symbol, value=value)
+            name, symbol, value = (
+                words.part(key_of(key).owner),
+                words.place(extreme.at)[0],
+                words.place_text(extreme.at),
+            )
+            yield words.paragraph("worst_angle", name=name, place=symbol, value=value)
             lines = [line for line in material.lines("transmission") if line.key in (extreme.key, key)]
             yield from material.worked(lines)
     yield _limits(material)
@@ -138,10 +141,6 @@ def _place(material: Material, key: str) -> str:
     """Return the crank angle or time at which an extreme is reached."""
     extreme = extreme_of(material.results, key)
     return _NONE if extreme is None else material.words.number(material.words.place(extreme.at)[1], digits=4)
-
-
-def _with_unit(value: float, unit: str, words: Words) -> str:
-    return words.number(value) + ("°" if unit == "deg" else f"\u00a0{printed_unit(unit, words.language)}")
 
 
 SECTIONS = (Section("quality", (_quality,), drawn),)

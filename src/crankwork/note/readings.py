@@ -131,8 +131,9 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
     sentences = _of_output(material), reading("joint_forces", material), reading("torques", material)
     yield from (sentence for sentence in sentences if sentence is not None)
     if "mean_torque" in summary and "shaft_power" in summary and summary["shaft_power"] > 0:
-        amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in ("mean_torque", "shaft_power")}
-        yield words.paragraph("reads_power", **amounts)
+        known = [key for key in ("mean_torque", "shaft_power", "standard_motor_power") if key in summary]
+        amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in known}
+        yield words.paragraph("reads_motor" if "standard_motor_power" in known else "reads_power", **amounts)
     elif "dynamic_torque_max" in summary and "static_torque_max" not in summary and not words.is_partial:
         yield words.paragraph("reads_idle")
     wheel = next((key for key in ("flywheel_inertia", "flywheel_inertia.exact") if summary.get(key, 0.0) > 0), "")
@@ -140,7 +141,7 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
     if wheel and wanted:
         shown = words.amount(summary[wheel], key_unit(wheel), digits=4)
         yield words.paragraph("reads_evenness", flywheel_inertia=shown, speed_fluctuation=words.number(wanted))
-    if agree(checks):
+    if agree(checks) and "whole_system" in checks:
         agreement = words.sentence("reads_agreement")
         if material.plan_difference is not None:
             share = words.number(100.0 * material.plan_difference, digits=2)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.analysis.mechanism import four_bar_type
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, rod_name
-from crankwork.mechanism.dyads import PRP, RRP, RRR, Dyad
-from crankwork.mechanism.joints import Pin, joints, pivots_of
+from crankwork.mechanism.joints import Pin, group_links, joints, pivots_of
 from crankwork.mechanism.linkage import GROUND
 from crankwork.note.document import Block, Table
 from crankwork.note.material import Material
@@ -35,7 +33,7 @@ def _structure(material: Material) -> Iterator[Block]:
     if isinstance(driver, Cylinder):
         # barrel and rod stand for one link of changing length
         numbers[driver.link] += f"+{numbers[rod_name(driver.link)]}"
-    kinds = {_members(dyad): type(dyad).__name__ for dyad in material.machine.mechanism.dyads}
+    kinds = {frozenset(group_links(dyad)): type(dyad).__name__ for dyad in material.machine.mechanism.dyads}
     rows = [
         (
             str(number),
@@ -52,19 +50,6 @@ def _structure(material: Material) -> Iterator[Block]:
     kind = four_bar_type(material.machine)
     if kind:
         yield words.paragraph("grashof", type=words.kind(kind))
-
-
-def _members(dyad: Dyad | Chain) -> frozenset[str]:
-    match dyad:
-        case RRR():
-            return frozenset((dyad.link_a, dyad.link_b))
-        case RRP():
-            return frozenset((dyad.link, dyad.piece))
-        case PRP():
-            return frozenset((dyad.block_a, dyad.block_b))
-        case Chain():
-            return frozenset(link.name for link in dyad.links)
-    return frozenset((dyad.link, dyad.block))
 
 
 def _pairs(material: Material, links: tuple[str, ...]) -> Table:

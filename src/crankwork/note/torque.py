@@ -55,10 +55,6 @@ def _all_cylinders(material: Material) -> Table | None:
     return angle_table(material, "total", [*keys, "total_torque", "total_tangential_force"], until=interval)
 
 
-def _repeats(material: Material) -> bool:
-    return math.isfinite(_interval(material))
-
-
 def _interval(material: Material) -> float:
     """Return the crank angle after which the total torque repeats, infinite if that is the cycle. [deg]"""
     results, cycle = material.results, material.machine.cycle
@@ -139,7 +135,7 @@ def _states(name: str) -> Condition:
     return lambda material: getattr(material.machine.transfer, name) is not None
 
 
-_ONE, _SEVERAL = _cylinders(lambda count: count == 1), _cylinders(lambda count: count > 1)
+ONE, _SEVERAL = _cylinders(lambda count: count == 1), _cylinders(lambda count: count > 1)
 # amplitudes of the torque by order, worked for the first of them
 HARMONICS: tuple[Part, ...] = (
     Lines("torque_harmonics", ("harmonic_amplitude", "total_harmonic_amplitude"), intro="harmonics", first=True),
@@ -150,7 +146,7 @@ _IS_TABLE = machine_has("transfer")
 SECTIONS = (
     # for one cylinder only where the order of sections asks for it
     Section("torque", (
-        Head("total"), When(_ONE, (Text("one_cylinder"),)),
+        Head("total"), When(ONE, (Text("one_cylinder"),)),
         When(_SEVERAL, (Text("total"), Text("order", {"order": _firing_order}))),
         Lines("firing"), Lines("uniformity", ("mean_total_torque", "mean_driving_torque", "mean_torque")),
         When(_SEVERAL, (
@@ -159,14 +155,14 @@ SECTIONS = (
                 "tangential_force", "crank_torque", "throw_torque", "total_torque", "total_tangential_force",
             )),
         )),
-        When(every(_SEVERAL, lacks(full), _repeats), (Text("total_repeats"),)),
+        When(every(_SEVERAL, lacks(full), lambda material: _interval(material) < math.inf), (Text("total_repeats"),)),
         When(_SEVERAL, (Shown(("total_tangential_force", "total_torque"), (_all_cylinders,)),)),
-        When(_ONE, (
+        When(ONE, (
             Shown(("total_torque",)),
             When(every(full, draws("torque")), (Text("see_figure", {"figures": Reference("f:torque")}),)),
         )),
         When(every(full, _SEVERAL), HARMONICS),
-    ), every(has("total_torque_max"), either(_SEVERAL, every(_ONE, school("vi"))))),
+    ), every(has("total_torque_max"), either(_SEVERAL, every(ONE, school("vi"))))),
     Section("static", (
         Head("static"),
         When(lacks(_states("static_torque")), (

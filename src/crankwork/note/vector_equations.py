@@ -52,8 +52,8 @@ from crankwork.show.canvas import marked
 from crankwork.show.chart_layout import current_layout, use_layout
 from crankwork.show.scene import Drawing
 
-# to which points and lengths are laid off and read on paper [mm]
-READING = 0.5
+# to which points and lengths are laid off and read on paper, and what is too short to be compared [mm]
+READING, _SHORTEST = 0.5, 2.0
 _SIGNS, _UNITS, _ROTARY = ("v", "a"), ("m/s", "m/s2"), ("rad/s", "rad/s2")
 _TURNING, _KINDS = ("speed", "angular_acceleration"), ("velocities", "accelerations")
 # shares of the largest value that are rounding
@@ -111,7 +111,7 @@ def vector_plans(material: Material) -> Iterator[Block]:
     values: dict[str, Run | Runs] = {kind: Reference(table.label) for kind, table in zip(_KINDS, tables, strict=True)}
     mm = unit_name("mm", words.language)
     scale = f"\u00a0=\u00a0{words.number(1e3 * scales.length)}\u00a0{mm}/{mm}"
-    values |= {"length": (Math("μ_l"), scale), "reading": words.number(READING)}
+    values |= {"length": (Math("μ_l"), scale), "reading": words.number(READING), "shortest": words.number(_SHORTEST)}
     yield words.paragraph("read_on_plans" if compared else "plan_vectors", **values)
     yield from tables
 
@@ -260,7 +260,7 @@ def _table(
         length = abs(part.drawn)
         if length > _NOISE * most:
             angle, shown = math.degrees(cmath.phase(part.drawn)) % 360.0, read.get(key, length)
-            values = cells(scale * length, scale * shown, _UNITS[order], legible=length > READING)
+            values = cells(scale * length, scale * shown, _UNITS[order], legible=length >= _SHORTEST)
             difference = max(difference, abs(shown / length - 1.0)) if length > LEGIBLE else difference
             rows.append((Math(name_of(part, order, words)), words.fixed(angle, 1), words.fixed(shown, 1), *values))
     for link, rate in plan.turning.items():

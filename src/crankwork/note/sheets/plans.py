@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -19,6 +19,7 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.table import Column, numbers, table, text_block
+from crankwork.note.wording import named
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
 from crankwork.report.display import link_label, symbol
@@ -84,7 +85,7 @@ def _plans(data: Positions, moved: SampledMotion) -> Pictures:
         ),
         "scales": partial(scales_table, data, scales, {"v": moves, "a": chosen}),
     }
-    if comparable(data):
+    if any(joint != data.shape.pin for joint in _joints(data, "point_velocity")):
         plans["compared"] = partial(compared_table, data, scales, [row for row in chosen if row in moves])
     return plans
 
@@ -172,9 +173,9 @@ def motion_tables(data: Positions) -> dict[str, Draw]:
     }
     for name, (points, sliders, links) in kinds.items():
         columns = [data.column(f"{points}.{joint}") for joint in _joints(data, points)]
-        columns += [data.column(key) for key in _named(data.columns, sliders)]
+        columns += [data.column(key) for key in named(data.columns, sliders)]
         mark = symbol("speed" if name == "velocities" else "angular_acceleration", data.language)
-        for key in _named(data.columns, links):
+        for key in named(data.columns, links):
             columns.append(data.column(key, f"${mark}_{data.number_of(key.partition('.')[2])}$"))
         if columns:
             title = translate(f"captions.{name}", data.language)
@@ -186,10 +187,6 @@ def _joints(data: Positions, kind: str) -> list[str]:
     """Return the points that are joints or draw a path, and of which results have a column."""
     shape = data.shape
     return [name for name in shape.letters if f"{kind}.{name}" in data.columns and name not in shape.centres]
-
-
-def _named(columns: Iterable[str], kind: str) -> list[str]:
-    return [key for key in columns if key.startswith(f"{kind}.")]
 
 
 def reactions_table(data: Positions) -> dict[str, Draw]:
@@ -275,8 +272,3 @@ def _share(value: float, language: Language) -> str:
 def _read(value: float, scale: float) -> float:
     """Return the length of a vector as it is read on paper. [mm]"""
     return round(value / scale, _READING) if scale == scale else 0.0  # noqa: PLR0124 - not a number
-
-
-def comparable(data: Positions) -> bool:
-    """Return whether there is a point whose velocities can be read on plans."""
-    return any(joint != data.shape.pin for joint in _joints(data, "point_velocity"))
