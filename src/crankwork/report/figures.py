@@ -417,8 +417,8 @@ def diagrams(machine: Drawn) -> dict[str, Diagram | Construction | Curves]:
     """Return the figures that there are of a machine, by name."""
     entries = (entry for entry in DIAGRAMS if entry.needs(machine))
     each = (entry.each(machine) if isinstance(entry, Several) else (entry,) for entry in entries)
-    asked = machine.results.machine.document.figures.items()
-    own = (Construction(name, partial(_own, name=name, keys=keys), has()) for name, keys in asked)
+    stated = machine.results.machine.document.figures.items()
+    own = (Construction(name, partial(_own, name=name, keys=keys), has()) for name, keys in stated)
     return {entry.name: entry for entry in itertools.chain(*each, own)}
 
 
