@@ -73,7 +73,7 @@ class Document:
 
     `title_ru`: the title in a note of this language; `work`: kind of the work, such as a course project; `subtitle`: if
     the note is not a calculation report; `year`: 0 if unknown; `sections`: of the note in their order, by default those
-    of its school.
+    of its school; `sheets`: figures of the sheets; `figures`: curves of figures by name, keys of columns.
     """
 
     title_en: str = ""
@@ -99,6 +99,9 @@ class Document:
     year: int = 0
     date: dt.date | None = None
     sections: tuple[str, ...] = ()
+    scale: str = ""
+    sheets: tuple[str, ...] = ()
+    figures: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

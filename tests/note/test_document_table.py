@@ -90,6 +90,10 @@ REFUSED = {
     'sections = ["kinematic"]': 'sections[1]: "kinematic" is no section of this note; write "kinematics"',
     'sections = ["qq"]': '"qq" is no section of this note; write one of summary, preface, data',
     "sections = []": "sections: has 0 entries",
+    'sheets = ["To"]': 'sheets[1]: "To" is no name of a figure; write small letters, digits and _',
+    'figures.one = ["piston_fource"]': 'of the tables, such as "piston_force"',
+    'figures.one = ["qqq"]': 'figures.one[1]: "qqq" is no quantity; write the key of a column',
+    'figures."a/b" = ["piston_force"]': 'figures.a/b: "a/b" is no name of a figure',
     'date = "31.05.2026"': 'date: "31.05.2026" is no day; write year, month and day, "2026-05-31"',
     "date = 2026-05-31T10:00:00": "date: 2026-05-31 10:00:00 is no day",
     "date = 2026-05-31\nyear = 2026": "document.year: says the same as date",
@@ -114,7 +118,11 @@ LONG = " ".join(["слово"] * 50)
 @pytest.fixture(scope="module")
 def long_note():
     """A note in whose table every field is as long as it may be."""
-    fields = [one for one in MACHINE_FILE.keys["document"].kind.keys if one not in ("year", "date", "sections")]
+    fields = [
+        one
+        for one in MACHINE_FILE.keys["document"].kind.keys
+        if one not in ("year", "date", "sections", "sheets", "figures", "scale")
+    ]
     assert len(LONG) == 299
     fields = [one for one in fields if not one.startswith("title_")]
     return _note("[document]\nsections = 'data'\n" + "\n".join(f'{one} = "{LONG}"' for one in fields))

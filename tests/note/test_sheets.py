@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from crankwork.analysis import analyse
 from crankwork.analysis.constructions import brix_points
 from crankwork.description.machine_file import read_machine, template
-from crankwork.errors import CrankworkError
+from crankwork.errors import CrankworkError, InputError
 from crankwork.kinematics.piston import textbook_displacement
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.note.sheets import Paper, drawn_sheets
@@ -27,6 +27,7 @@ from crankwork.report.figures import drawings
 from crankwork.report.look import drawn_of
 from crankwork.show.chart_layout import FINE, round_scale
 from crankwork.show.scene import ChartBox, Hatch, Polyline, extent, hatch_lines, text_width
+from crankwork.show.svg import svg
 from each import failing, for_each
 from looks import Fault, box_of, faults
 from notes import ROOT, SIGNED, lines, results, scale, sheets, texts, value
@@ -55,6 +56,47 @@ def zero(plot, axis):
     start, length = (plot.box.left, plot.box.width) if axis == "x" else (plot.box.bottom, plot.box.height)
     low, high = getattr(plot, axis)
     return start + length * (0 - low) / (high - low)
+
+
+# --- what a file asks for
+CHOICE = """[document]
+sheets = ["torque", "own", "indicator"]
+figures.own = ["side_force", "piston_velocity"]
+figures.torque = ["crank_torque"]
+"""
+
+
+def _asked(text):
+    stated = (ROOT / "examples" / "spark-engine.toml").read_text("utf-8")
+    return analyse(read_machine(stated.replace("[document]\n", text)))
+
+
+def test_a_file_chooses_the_figures_of_its_sheets_and_the_curves_of_figures():
+    given = _asked(CHOICE)
+    found = figures(drawn_sheets(given, paper=Paper("A2")))
+    assert list(found) == ["indicator", "torque", "own"]
+    assert [list(plot.curves) for plot in found["torque"].plots] == [["crank_torque", "max", "min"]]
+    kinds = [next(iter(plot.curves)) for plot in found["own"].plots]
+    assert kinds == ["side_force", "piston_velocity"]
+    degrees, force = drawings(given, only=["own"])["own"].plots[0].curves["side_force"]
+    expected = given.columns_at(np.mod(degrees, 720.0), ["side_force"])["side_force"] / 1e3
+    np.testing.assert_allclose(force, expected, atol=1e-9)
+
+
+@for_each(("before", "after", "told"), [
+    ('"torque", ', '"torqe", ', "sheets[1]: torqe is no figure of this machine; write one of indicator_brix, "),
+    ('"side_force", ', '"point_velocity.A", ', "figures.own[1]: point_velocity.A is no column of this machine"),
+])  # fmt: skip
+def test_what_a_machine_does_not_have_is_refused_with_what_it_has(before, after, told):
+    with pytest.raises(InputError, match=re.escape(f"document.{told}")):
+        drawn_sheets(_asked(CHOICE.replace(before, after)))
+
+
+def test_curves_of_written_sheets_have_names_and_are_black():
+    written = svg(sheets("spark-engine", "ru")[0].drawing, "black").decode()
+    assert re.search(r'<path class="piston_velocity" [^>]*stroke="#000000"', written)
+    strokes = set(re.findall(r'stroke="(#[0-9a-f]{6})"', written))
+    assert all(colour[1:3] == colour[3:5] == colour[5:] for colour in strokes)
 
 
 # --- what is measured

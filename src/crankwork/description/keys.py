@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import datetime as dt
 import math
+import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -28,6 +29,7 @@ from crankwork.description.value_types import Choice, Flag, Number, Quantity, Re
 from crankwork.locale import ErrorMessage, Language
 from crankwork.machine import Document
 from crankwork.method import STANDARD_GRAVITY
+from crankwork.quantities import QUANTITIES
 from crankwork.working_cycle.schools import PEAK_LEVEL, SCHOOLS
 
 LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -155,7 +157,7 @@ _HEAD = (
     "title_en", "title_ru", "title_vi",
     "ministry", "institution", "faculty", "department", "work", "subject", "subtitle", "variant", "designation",
 )  # fmt: skip
-_PEOPLE = ("group", "supervisor", "checked_by", "standards_by", "approved_by", "city")
+_PEOPLE = ("group", "supervisor", "checked_by", "standards_by", "approved_by", "city", "scale")
 
 
 def with_defaults(keys: TableSpec, name: str, table: TableSpec, **defaults: object) -> TableSpec:
@@ -216,6 +218,58 @@ class Section(NamedTuple):
         return {"enum": list(self.options)}
 
 
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
+class FigureName(NamedTuple):
+    """The name of a figure, which its file has; which there are depends on results."""
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the name."""
+        if isinstance(value, str) and _NAME.fullmatch(value):
+            return value
+        reader.add_error(key, ErrorMessage("figure_name", value=shown(value)))
+        return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a name."""
+        return {"type": "string", "pattern": f"^{_NAME.pattern}$"}
+
+
+class ColumnKey(NamedTuple):
+    """The key of a column: a quantity, and after a dot what it is of."""
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the key."""
+        kind = value.partition(".")[0] if isinstance(value, str) else ""
+        if isinstance(value, str) and kind in QUANTITIES:
+            return value
+        known = nearest_name(kind, QUANTITIES) or "piston_force"
+        reader.add_error(key, ErrorMessage("no_quantity_of_name", value=shown(value), known=known))
+        return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a key."""
+        return {"type": "string", "minLength": 1}
+
+
+class Figures(NamedTuple):
+    """A table of figures: keys of the columns that each shows, by its name."""
+
+    def read(self, value: object, key: str, reader: Reader) -> dict[str, tuple[str, ...]] | None:
+        """Return the keys by name."""
+        for name in value if isinstance(value, dict) else ():
+            FigureName().read(name, f"{key}.{name}", reader)
+        return MapOf(_CURVES, most=40).read(value, key, reader)
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of the table."""
+        return MapOf(_CURVES, most=40).schema(language) | {"propertyNames": FigureName().schema(language)}
+
+
+_CURVES = OneOrMore(ColumnKey(), most=12)
+
+
 def document_key(sections: tuple[str, ...]) -> KeySpec:
     """Return the key of the table for machines whose notes have these sections."""
     return KeySpec(
@@ -226,6 +280,8 @@ def document_key(sections: tuple[str, ...]) -> KeySpec:
             "year": KeySpec(Number(1900, 2200, whole=True), instead_of=("date",)),
             "date": KeySpec(Date(), instead_of=("year",)),
             "sections": KeySpec(OneOrMore(Section(sections), most=40)),
+            "sheets": KeySpec(OneOrMore(FigureName(), most=40)),
+            "figures": KeySpec(Figures()),
         })
     )  # fmt: skip
 

@@ -41,8 +41,8 @@ _RAYS, _RAY, _MEAN, _STICK = 30.0, "#8c8c8c", 0.45, 0.12
 _CROWDED = 10.0
 # what numbers and title take beside polar diagrams of main journals [pt]
 _LEFT_MARGIN = 60.0
-# the side of one at most [pt]
-_SIDE = 320.0
+# the side of one at most, of several at least [pt]
+_SIDE, _SMALLEST = 320.0, 72.0
 
 
 class _OverCycle(NamedTuple):
@@ -264,7 +264,7 @@ def main_journal_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     columns = columns_of(min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3))
     lines = -(-len(diagrams) // columns)
     side, gap = (current_layout().width - _LEFT_MARGIN - current_layout().right + 22) / columns - 22, (22.0, 26.0)
-    side = min(side, scaled_height(_SIDE))
+    side = min(side, max(scaled_height(_SIDE / lines), _SMALLEST))
     left = max(_LEFT_MARGIN, (current_layout().width - columns * (side + gap[0])) / 2)
     paper = Canvas(current_layout().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
@@ -336,7 +336,7 @@ def _rings(engine: Drawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str
     lines = -(-len(rings) // across)
     side = min(
         (current_layout().width - 24 - (across - 1) * _GAP) / across,
-        scaled_height(290.0),
+        max(scaled_height(290.0) / min(lines, 2), _SMALLEST),
         _LARGEST if current_layout().is_sheet else math.inf,
     )
     start = (current_layout().width - across * side - (across - 1) * _GAP) / 2

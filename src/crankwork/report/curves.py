@@ -108,13 +108,13 @@ def curves(
         top += graph.box.height + _GAP
     dead = "; ".join(f"{number(round(limit, 2), style.language)}°" for limit in style.limits)
     owners = {key_of(row.key).owner for panel in all_panels for row in panel}
-    known = {number: name for number, name in enumerate(style.links, start=1) if number_of(name) != name}
+    known = {number: name for number, name in enumerate(style.links, 1) if name in owners and number_of(name) != name}
     zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
     remarks = [
         translate("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
         remark,
-        *key_of_links(known, (number for number, name in known.items() if name in owners), style.language),
+        *key_of_links(known, known, style.language),
     ]
     write_remark(paper, "; ".join(text for text in remarks if text))
     return paper.drawing(title, style.language)

@@ -166,7 +166,6 @@ class _Engine:
         r = self._size.crank
         items: list[Item] = [Circle((0.0, 0.0), r, Pen(0.2, (6.0, 1.5, 1.0, 1.5), 0.4))]
         items.append(line((-r - 4, 0.0), (r + 4, 0.0), "axis"))
-        # clockwise, below the shaft where no cylinder is
         items += rotation_arrow((0.0, 0.0), max(r, self._size.counterweight) + 4, -1.0, 300.0)
         for cylinder in fronts:
             foot = _across(cylinder, cylinder.offset)

@@ -13,7 +13,8 @@ from crankwork.analysis import Results
 from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.vector_polygons import driver_rates, position_step
-from crankwork.locale import translate
+from crankwork.errors import InputError, Problem
+from crankwork.locale import ErrorMessage, translate
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import use_numbers
@@ -42,7 +43,7 @@ from crankwork.report.forces import force_law, forces_over_cycle, has_force_plan
 from crankwork.report.gas import chamber_indicator, indicator, pressure
 from crankwork.report.harmonics import phase_stars, torque_harmonics
 from crankwork.report.lever import has_lever, lever_figure
-from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of
+from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of, quantity_of
 from crankwork.report.motion import brix, centrodes, curved_paths, has_centrodes, kinematics, path_figure, tolle
 from crankwork.report.plans import acceleration_plan, velocity_plan
 from crankwork.report.positions import position_plans
@@ -342,6 +343,19 @@ def _has_compared(machine: Drawn) -> bool:
     return machine.results.compared is not None and bool(drawn_keys(machine.results.compared))
 
 
+def _own(machine: Drawn, name: str, keys: Sequence[str]) -> Drawing:
+    """Return a figure that a file asks for: columns of one unit in one panel."""
+    reached = machine.reached
+    degrees, columns = (machine.degrees, machine.columns) if machine.has_piston else (reached.degrees, reached.columns)
+    for number, key in enumerate(keys, start=1):
+        if key not in columns:
+            message = ErrorMessage("no_column", value=key, known=", ".join(columns))
+            raise InputError([Problem(f"document.figures.{name}[{number}]", message)], [""])
+    panels = itertools.groupby(keys, key=lambda key: quantity_of(key).unit)
+    parts = [part for _, group in panels for part in _by_fours(list(group))]
+    return curves(degrees, columns, parts, figure_title(name, machine.language), machine.style)
+
+
 _GAS = _of_kinds("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
 # every figure, in the order in which they are told
 DIAGRAMS: tuple[Entry, ...] = (
@@ -403,7 +417,9 @@ def diagrams(machine: Drawn) -> dict[str, Diagram | Construction | Curves]:
     """Return the figures that there are of a machine, by name."""
     entries = (entry for entry in DIAGRAMS if entry.needs(machine))
     each = (entry.each(machine) if isinstance(entry, Several) else (entry,) for entry in entries)
-    return {entry.name: entry for entry in itertools.chain.from_iterable(each)}
+    stated = machine.results.machine.document.figures.items()
+    own = (Construction(name, partial(_own, name=name, keys=keys), has()) for name, keys in stated)
+    return {entry.name: entry for entry in itertools.chain(*each, own)}
 
 
 def figures(

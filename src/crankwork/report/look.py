@@ -51,8 +51,9 @@ def figure_title(name: str, language: Language) -> str:
     kind = kind_of(name)
     number = name.removeprefix(kind).removeprefix("_")
     # some are called what their table or their quantity is
-    room = next(room for room in ("figures", "tables", "quantities") if has_text(f"{room}.{kind}"))
-    return capital(translate(f"{room}.{kind}", language)) + (f", {number}" if number else "")
+    room = next((room for room in ("figures", "tables", "quantities") if has_text(f"{room}.{kind}")), "")
+    title = capital(translate(f"{room}.{kind}", language)) if room else plain(kind)
+    return title + (f", {number}" if number else "")
 
 
 class Style(NamedTuple):

@@ -170,7 +170,7 @@ def indicator_brix(machine: Drawn) -> Drawing:
     volume, (_, pressure) = machine.values("cylinder_volume"), diagram(machine)
     ends, reach = limits(pressure), 1.06 * float(np.max(volume))
     layout, high = current_layout(), scaled_height(_INDICATOR)
-    wide = 0.44 * layout.inner
+    wide = (0.36 if layout.is_sheet else 0.44) * layout.inner
     paper = Canvas(layout.width, TOP + high + BOTTOM + wide / 2 + _MARGIN)
     left = Graph(paper, ChartBox(layout.left, TOP, wide, high), (0.0, reach), ends, machine.language)
     # to a round scale it is narrower
@@ -199,7 +199,9 @@ def indicator_brix(machine: Drawn) -> Drawing:
     right.set_quantity(f"{machine.symbol('diagram_pressure')}, {unit}")
     right.x_title(titles[1])
     label_marks(paper, marks, size=7.0, dot=1.2)
-    below = ChartBox(place.left, TOP + left.box.height + BOTTOM, right.box.width, max(wide / 2, _LOOP))
+    clear = _NUMBER / 2  # Of the last number of the half circle
+    foot = TOP + left.box.height + BOTTOM
+    below = ChartBox(place.left + clear, foot, right.box.width - clear, max(wide / 2, _LOOP))
     gas_exchange(machine, paper, below, volume, pressure)
     return paper.drawing(figure_title("indicator_brix", machine.language), machine.language)
 

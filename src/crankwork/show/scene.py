@@ -191,10 +191,7 @@ def line(start: ArrayLike, end: ArrayLike, kind: LineKind = "thin") -> Polyline:
 def rotation_arrow(
     centre: ArrayLike, radius: float, sense: float, around: float = 90.0, kind: LineKind | Pen = "thin"
 ) -> list[Item]:
-    """Return an arrow about a centre that shows a rotation, on both sides of a direction [deg].
-
-    `sense`: positive anticlockwise.
-    """
+    """Return an arrow of rotation about a centre, on both sides of a direction [deg]; `sense`: + anticlockwise."""
     turns = np.radians(around + math.copysign(1.0, sense) * np.linspace(-43.0, 43.0, 16))
     points = np.asarray(centre, dtype=float) + radius * np.column_stack([np.cos(turns), np.sin(turns)])
     head = Polyline(np.array([(0.0, 0.0), (-1.8, 0.55), (-1.8, -0.55)]), Pen(0.0), closed=True, fill=0.0)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
 from crankwork.analysis import Results
 from crankwork.analysis.all_cylinders import with_engine_results
-from crankwork.errors import CrankworkError
-from crankwork.locale import translate
+from crankwork.errors import CrankworkError, InputError, Problem
+from crankwork.locale import ErrorMessage, translate
 from crankwork.note.sheets.packing import Picture
 from crankwork.note.sheets.plans import Pictures, of_links
 from crankwork.note.sheets.sheet import Paper, Sheet, numbered, sheets_with
@@ -75,10 +76,13 @@ def drawn_sheets(
     # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
     results = with_engine_results(results)
     machine = drawn_of(results, language, per_area=per_area)
-    known = _pictures(results, machine, language)
+    chosen = results.machine.document.sheets
+    known = _pictures(results, machine, language, chosen)
     subjects: list[tuple[str, str, list[Picture]]] = []
     for name, (title, kinds) in (_SHEETS if machine.has_piston else _OF_LINKS).items():
-        pictures = [Picture(key, known[key]) for kind in kinds for key in known if kind_of(key) == kind]
+        keys = [key for kind in kinds for key in known if kind_of(key) == kind]
+        keys = [key for key in chosen if key in keys] if chosen else keys
+        pictures = [Picture(key, known[key]) for key in keys]
         # one or two figures would leave a sheet of their own empty
         is_few = len(pictures) in (1, 2) and not machine.has_piston
         if subjects and is_few and len(subjects[-1][2]) + len(pictures) <= _FULL:
@@ -88,6 +92,9 @@ def drawn_sheets(
             subjects[-1] = first, joined, [*joined_pictures, *pictures]
         elif pictures:
             subjects.append((name, translate(title, language), pictures))
+    placed = {picture.name for _, _, pictures in subjects for picture in pictures}
+    if remaining := [Picture(key, known[key]) for key in chosen if key not in placed]:
+        subjects.append(("chosen", translate("page.diagrams", language), remaining))
     if not subjects:
         raise CrankworkError("sheets need the motion of a piston, a drawn linkage or torques; these results have none")
     sheets: list[Sheet] = []
@@ -96,12 +103,12 @@ def drawn_sheets(
     return numbered(sheets, paper)
 
 
-def _pictures(results: Results, machine: Drawn, language: Language) -> Pictures:
-    """Return what the sheets of a machine choose from."""
+def _pictures(results: Results, machine: Drawn, language: Language, chosen: Sequence[str]) -> Pictures:
+    """Return what the sheets of a machine choose from: all that there is, where a file names its figures."""
     known: Pictures = {name: partial(figure.picture, machine) for name, figure in diagrams(machine).items()}
     if machine.has_piston:
         known["data"] = partial(_data, machine)
-        if "total_torque" in known:
+        if "total_torque" in known and not chosen:
             known.pop("torque")
             # one and the same curve to two scales: schools draw one of them
             known.pop("total_torque" if language == "vi" else "total_tangential_force")
@@ -109,9 +116,14 @@ def _pictures(results: Results, machine: Drawn, language: Language) -> Pictures:
         if "indicator" in known and space.factor == 1:
             # the pressure at one scale over volume and angle, with its circle
             known = {"indicator_brix": partial(indicator_brix, machine), **known}
-            for name in ("indicator", "pressure", "brix"):
+            for name in () if chosen else ("indicator", "pressure", "brix"):
                 del known[name]
-    return known | (of_links(results, language) if results.machine.linkage is not None else {})
+    known |= of_links(results, language) if results.machine.linkage is not None else {}
+    for number, name in enumerate(chosen, start=1):
+        if name not in known:
+            message = ErrorMessage("no_figure", value=name, known=", ".join(known))
+            raise InputError([Problem(f"document.sheets[{number}]", message)], [""])
+    return known
 
 
 def _data(engine: Drawn) -> Drawing:

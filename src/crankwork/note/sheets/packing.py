@@ -6,6 +6,7 @@ import itertools
 import math
 import re
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +29,7 @@ from crankwork.show.scene import (
     flow_rows,
     moved,
     moved_plot,
+    text_width,
 )
 
 _TITLE_ROW, _ROW = 8.5, 6.0
@@ -37,6 +39,8 @@ _SCALES = tuple(0.3 * 1.16**step for step in range(21))
 # how much higher than in a text it is, for its width, and still looks as it should
 _HIGHEST = 1.6
 _GAP, _FEW, _CLEAR = 7.0, 2, 0.3
+# width of a graph over the crank angle at least [mm]
+_READABLE = 70.0
 _SYMBOL = re.compile(r"/\{([^{}]+)\}([′″]*)")
 
 
@@ -72,13 +76,13 @@ def packed(
     taken: tuple[ChartBox, ChartBox],
     layouts: Sequence[Layout],
     least: float,
+    sizes: Sizes,
 ) -> list[Fit]:
     """Return pictures placed in columns in their order, so that they fill as much of the field as they can.
 
     `taken`: free areas at the upper left and at the lower right of the field [mm]; `layouts`: shares of the
-    width of columns; `least`: how tall graphs are at least, against those of a text.
+    width of columns; `least`: how tall graphs are at least, against those of a text; `sizes`: those tried before.
     """
-    sizes: Sizes = {}
     best, most = list[Fit](), -math.inf
     for layout in layouts:
         # of many pictures none is as wide as the sheet
@@ -92,13 +96,28 @@ def packed(
             if any(fits is None for fits in columns):
                 continue
             placed_ones = [fit for fits in columns for fit in fits or ()]
-            score = math.fsum(map(_worth, placed_ones))
+            score = math.fsum(map(worth, placed_ones))
             if score > most:
                 best, most = placed_ones, score
-    return [_finished(fit, field, taken[0]) for fit in best]
+    return best
 
 
-def _finished(fit: Fit, field: ChartBox, corner: ChartBox) -> Fit:
+def grown(rough: Sequence[Fit], complete: Sequence[Fit], sizes: Sizes) -> bool:
+    """Return whether complete drawings are higher than rough ones had room for, and let these sizes grow."""
+    higher = [
+        (before, after.ink.height)
+        for before, after in zip(rough, complete, strict=True)
+        if after.ink.height > before.ink.height + _CLEAR
+    ]
+    for before, height in higher:
+        for fits in (fits for (name, _), fits in sizes.items() if name == before.name):
+            fits[:] = [
+                fit._replace(ink=fit.ink._replace(height=height)) if fit.place == before.place else fit for fit in fits
+            ]
+    return bool(higher)
+
+
+def finished(fit: Fit, field: ChartBox, corner: ChartBox) -> Fit:
     """Return a picture drawn in full in the place of its rough drawing, inside the field."""
     with use_layout(fit.place._replace(is_rough=False)):
         complete = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
@@ -138,7 +157,7 @@ def _stacked(pictures: Sequence[Picture], box: ChartBox, limits: tuple[float, fl
         further: dict[int, tuple[float, tuple[Fit, ...]]] = {}
         for (used, (score, chosen)), fit in itertools.product(best.items(), fits):
             total = used + math.ceil(fit.ink.height)
-            value = score + _worth(fit)
+            value = score + worth(fit)
             if total <= room and value > further.get(total, (-math.inf, ()))[0]:
                 further[total] = value, (*chosen, fit)
         best = further
@@ -153,7 +172,7 @@ def _stacked(pictures: Sequence[Picture], box: ChartBox, limits: tuple[float, fl
     return result
 
 
-def _worth(fit: Fit) -> float:
+def worth(fit: Fit) -> float:
     """Return the value of the size of a picture: none is left small to make another one large."""
     # titles and legends beside a small graph make it no larger
     area = fit.ink.width * fit.ink.height
@@ -204,6 +223,10 @@ def _sizes(picture: Picture, width: float, limits: tuple[float, float]) -> list[
     for _, fit_at in sorted(fits.items()):
         if result and fit_at.ink.height > highest * fit_at.ink.width:
             break
+        # of a single graph over the crank angle less could not be read
+        angles = [plot.box.width for plot in fit_at.drawing.plots if plot.over == "crank_angle"]
+        if len(angles) == 1 and angles[0] < _READABLE:
+            continue
         if fit_at.ink.width <= width + _GAP / 2 and (not result or fit_at.ink.height > result[-1].ink.height + 1):
             result.append(fit_at)
     return result
@@ -216,11 +239,15 @@ def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout)
         return Fit(picture, place, drawing, ink)
     middle, top = ink.left + ink.width / 2, ink.top + 2.0
     rows = [(row_text, TEXT) for row_text in flow_rows(scales(drawing), ";  ", width)]
-    rows = [*((row_text, TITLE) for row_text in flow_rows(capital(drawing.title).split(" "), " ", 0.7 * width)), *rows]
+    scale_rows = len(rows)
+    title = capital(drawing.title)
+    size = next((height for height in (TITLE, TEXT) if WIDER * text_width(title, height) <= width), TEXT)
+    room = partial(text_width, height=WIDER * size)
+    rows = [*((row_text, size) for row_text in flow_rows(title.split(" "), " ", width, room)), *rows]
     items: list[Item] = []
     for text, height in reversed(rows):
         items.append(Text((middle, top + 1.5), text, height, "middle"))
-        top += _TITLE_ROW if height == TITLE else _ROW
+        top += height / TITLE * _TITLE_ROW if len(items) > scale_rows else _ROW
     drawing = drawing._replace(items=(*drawing.items, *items))
     return Fit(picture, place, drawing, covered(drawing.items))
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from crankwork.errors import CrankworkError
 from crankwork.locale import translate
-from crankwork.note.sheets.packing import Fit, Layout, Picture, packed
+from crankwork.note.sheets.packing import Fit, Layout, Picture, Sizes, finished, grown, packed, worth
 from crankwork.note.sheets.table import text_block
 from crankwork.note.sheets.title_block import (
     TitleBlock,
@@ -43,6 +43,8 @@ _MOST: dict[Size, int] = {"A0": 12, "A1": 8, "A2": 4, "A3": 2}
 # how tall graphs are at least, against those of a text
 _LEAST: dict[Size, float] = {"A0": 0.6, "A1": 0.6, "A2": 0.4, "A3": 0.45}
 _BINDING, _EDGE = 20.0, 5.0
+# how often figures are placed anew whose names need more room than was thought
+_TRIES = 8
 
 
 class Paper(NamedTuple):
@@ -123,22 +125,34 @@ def sheets_with(
     """Yield the sheets that pictures need on a paper, each with about as many."""
     if paper.size not in SIZES:
         raise CrankworkError(f"no paper of size {paper.size} is known; take {', '.join(SIZES)}")
-    count = math.ceil(len(pictures) / _MOST[paper.size])
-    while count and count <= len(pictures):
-        ends = [len(pictures) * index // count for index in range(count + 1)]
-        parts = [pictures[start:end] for start, end in itertools.pairwise(ends)]
-        packed_sheets = [_packed(part, paper) for part in parts]
-        if all(packed_sheets):
-            for figures in packed_sheets:
-                yield Sheet(name, title, language, paper, tuple(figures))
-            return
-        if count == len(pictures):
-            # a picture that does not fit even alone is named in its place
-            alone = zip(pictures, packed_sheets, strict=True)
-            replaced = [picture if figures else _without_room(picture, paper, language) for picture, figures in alone]
-            yield from sheets_with(name, title, replaced, paper, language)
-            return
-        count += 1
+    sizes, most = Sizes(), _MOST[paper.size]
+    count = math.ceil(len(pictures) / most)
+    ends = [len(pictures) * index // count for index in range(count + 1)]
+    parts = [_packed(pictures[start:end], paper, sizes) for start, end in itertools.pairwise(ends)]
+    if not all(parts):
+        # a picture that does not fit even alone is named in its place
+        fitting = [
+            picture if _packed([picture], paper, sizes) else _without_room(picture, paper, language)
+            for picture in pictures
+        ]
+        sizes = Sizes()
+        best: list[tuple[int, float, list[list[Fit]]]] = [(0, 0.0, [])]
+        for end in range(1, len(pictures) + 1):
+            options = []
+            for start in range(max(0, end - most), end):
+                if part := _packed(fitting[start:end], paper, sizes):
+                    used, lost, before = best[start]
+                    options.append((used + 1, lost - math.fsum(map(worth, part)), [*before, part]))
+            # of few sheets those with the largest pictures
+            best.append(min(options, key=lambda option: option[:2]))
+        parts = best[-1][2]
+    for part in parts:
+        rough, done = part, [finished(fit, _field(paper), paper.corner) for fit in part]
+        for _ in range(_TRIES):
+            if not grown(rough, done, sizes) or not (higher := _packed([fit.picture for fit in part], paper, sizes)):
+                break
+            rough, done = higher, [finished(fit, _field(paper), paper.corner) for fit in higher]
+        yield Sheet(name, title, language, paper, tuple(done))
 
 
 def _without_room(picture: Picture, paper: Paper, language: Language) -> Picture:
@@ -149,9 +163,13 @@ def _without_room(picture: Picture, paper: Paper, language: Language) -> Picture
     return Picture(picture.name, partial(text_block, [text], title, language), has_title=False)
 
 
-def _packed(pictures: Sequence[Picture], paper: Paper) -> list[Fit]:
-    field = paper.frame.inset(2, 2, 2, 2)
-    return packed(pictures, field, (paper.corner, paper.reserved), _LAYOUTS[paper.size], _LEAST[paper.size])
+def _field(paper: Paper) -> ChartBox:
+    return paper.frame.inset(2, 2, 2, 5)
+
+
+def _packed(pictures: Sequence[Picture], paper: Paper, sizes: Sizes) -> list[Fit]:
+    taken = paper.corner, paper.reserved
+    return packed(pictures, _field(paper), taken, _LAYOUTS[paper.size], _LEAST[paper.size], sizes)
 
 
 def numbered(sheets: Sequence[Sheet], paper: Paper) -> tuple[Sheet, ...]:

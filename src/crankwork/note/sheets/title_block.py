@@ -73,6 +73,7 @@ def block_of(document: Document, form: Language, author: str = "") -> TitleBlock
         standards_by=document.standards_by,
         approved_by=document.approved_by,
         date=date,
+        scale=document.scale,
     )
 
 
