@@ -19,9 +19,8 @@ from crankwork.locale.numbers import aligned, number, unit_name
 from crankwork.report.display import displayed, displayed_column, displayed_size, key_unit, label, plain, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
 from crankwork.show.canvas import plain as plain_text
-from crankwork.study.chunks import NUMBER, StudyAggregate, feasible_designs, ranks
+from crankwork.study.chunks import NUMBER, Index, Moments, StudyAggregate, feasible_designs, ranks
 from crankwork.study.numeric_field import VariedField
-from crankwork.study.ranking import Index, Moments
 from crankwork.study.study_file import Study
 from crankwork.units import from_si, use_units
 
@@ -302,8 +301,8 @@ def _optimum_lines(study: Study, optimum: Optimum, language: Language) -> Iterat
     yield translate(f"study.best_{optimum.sense}", language, name=capital(name), value=value, stated=before)
     yield from ("", translate("study.best_design", language))
     rows = []
-    for field, value in zip(study.varied, optimum.fields.values(), strict=True):
-        rows.append((field.key, _stated(field, value, language, _LONG), _stated_number(field, language)))
+    for field, best in zip(study.varied, optimum.fields.values(), strict=True):
+        rows.append((field.key, _stated(field, best, language, _LONG), _stated_number(field, language)))
     yield from aligned(rows)
     if len(optimum.values) > 1:
         values = [(label(key, language), value_text(key, x, language, _LONG)) for key, x in optimum.values.items()]
