@@ -55,12 +55,16 @@ def run_study(
     progress: Callable[[int], None] | None = None,
 ) -> StudyAggregate:
     """Write every missing part into a folder and return the aggregate of all designs."""
-    identity = json.dumps({**study.identity, "chunk": prepared_study(study).points}, indent=1)
-    place = files.StudyFolder(folder, f"{identity}\n".encode(), resume=resume)
+    place = files.StudyFolder(folder, _written(study), resume=resume)
     try:
         return _Run(study, place, where, progress).run()
     finally:
         place.close()
+
+
+def _written(study: Study) -> bytes:
+    """Return the text that identifies a study in its folder."""
+    return f"{json.dumps({**study.identity, 'chunk': prepared_study(study).points}, indent=1)}\n".encode()
 
 
 class _Run:
