@@ -48,8 +48,7 @@ from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, ChartB
 from crankwork.show.theme import fill_colours
 from crankwork.studio import session, sketch
 from crankwork.studio.form import additions, with_addition
-from crankwork.study.chunks import empty_aggregate
-from crankwork.study.ranking import Shares
+from crankwork.study.chunks import Shares, empty_aggregate
 from crankwork.study.runner import ExecutionOptions, _Pool, _written
 from crankwork.study.sliders import moved
 from crankwork.study.study_file import _flat, read_study

@@ -9,7 +9,7 @@ import pytest
 
 import crankwork
 from crankwork.analysis.cylinders import multi_cylinder_engine
-from crankwork.description.source_locations import origins_of
+from crankwork.description.document import origins_of
 from crankwork.locale import LANGUAGES, translate
 
 PISTON, SMALL_END, GRAVITY = 1.3, 0.3 * 1.9, 9.80665

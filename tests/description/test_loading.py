@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import crankwork
+from crankwork.description.document import origins_of
 from crankwork.description.machine_file import template
-from crankwork.description.source_locations import origins_of
 from crankwork.errors import InputError
 from crankwork.formula.traced_value import Input, in_order
 from each import for_each

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.description.source_locations import origins
+from crankwork.description.document import origins
 from crankwork.formula.calculation_lines import ValueLine
 from crankwork.formula.replay import replay
 from crankwork.formula.traced_value import AngleFunction, Input, Tabulated, TracedValue, in_order

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from crankwork.study.ranking import Histogram, Moments, Shares, best_designs, pareto_front, thin_front
+from crankwork.study.chunks import Histogram, Moments, Shares, best_designs, pareto_front, thin_front
 
 
 def by_definition(costs):

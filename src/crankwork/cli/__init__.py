@@ -476,8 +476,8 @@ def optimise(options: CommonOptions, study: str, output: str) -> None:
     """Find the best design of a study: its machine file, its active constraints, and the iterations."""
     from crankwork import files
     from crankwork.study.optimise import best_of
-    from crankwork.study.optimum_text import optimum_data, optimum_files, optimum_text
     from crankwork.study.study_file import load_study
+    from crankwork.study.study_text import optimum_data, optimum_files, optimum_text
 
     stated = load_study(study, options.settings, is_search=True)
     files.check_folder(output, overwrite=options.overwrite)

@@ -178,7 +178,7 @@ class CommonOptions:
 
     def origin(self) -> Callable[[str, Iterable[float]], str]:
         """Return a function that gives the place in the file where numbers are stated."""
-        from crankwork.description.source_locations import origins
+        from crankwork.description.document import origins
         from crankwork.note.explain import place_text
 
         places = origins(self.file, self.overrides)

@@ -1,15 +1,18 @@
-"""A machine file as an object: values by dotted key, changed in the text itself, so that comments and order stay."""
+"""A machine file as an object: values by dotted key, changed in the text itself; and the origins of inputs in it."""
 
 from __future__ import annotations
 
 import copy
+import functools
 import math
 import numbers
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
+from crankwork.description.keys import OF_LINKAGE
 from crankwork.description.machine_file import (
     Setting,
     apply_override,
@@ -21,13 +24,31 @@ from crankwork.description.machine_file import (
     steps_of,
 )
 from crankwork.description.schema import TableSpec, Values
-from crankwork.description.toml_edit import document, with_value, without_key
+from crankwork.description.stated import stated_numbers
+from crankwork.description.toml_edit import document, locate, with_value, without_key
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from crankwork.locale import ErrorMessage
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine
+
+_SAME = 1e-9
+# keys that determine a key which the file does not state
+_FOLLOWS = (
+    (r"engine\.bank_angle|cylinder\.inclination", ("engine.bank_angle", "engine.bank_angles", "engine.layout")),
+    (r"engine\.(throws|firing_order)", ("engine.firing_order", "engine.layout")),
+    (r"(gas|gas\.motored|gas\.cylinders\.\d+|chambers\.[^.]+)\.points\..*", (r"\1.pieces",)),
+    (r"gas\.motored\.points\..*", ("gas.motored",)),
+    # a chamber with one face may state the keys of the face itself
+    (r"(chambers\.[^.]+)\.faces\[1\]\.(\w+)", (r"\1.\2",)),
+    # the second joint of a link lies at its length
+    (r"(links\.[^.]+)\.points\..*\[1\]", (r"\1.length",)),
+    (r"(links\..*\.length|branch\..*|(links|sliders)\..*\.(points|centre).*)", ("positions",)),
+    (r"crank\.(radius|stroke)|cylinder\.bore", ("cycle.power",)),
+    (r"cylinder\.compression_ratio", ("cycle.timing",)),
+    *OF_LINKAGE,
+)
 
 
 class Description:
@@ -94,10 +115,7 @@ class Description:
 
     def __contains__(self, key: str) -> bool:
         """Return whether the file states a key."""
-        value: Any = self._values
-        for step in steps_of(key):
-            value = _at(value, step)
-        return value is not None
+        return functools.reduce(_at, steps_of(key), self._values) is not None
 
     def __setitem__(self, key: str, value: Any) -> None:  # noqa: ANN401 - what a file may state
         """Set a value: text with a unit, number or table; keys that exclude it are removed."""
@@ -172,11 +190,9 @@ def load(path: str | Path) -> Description:
 def stated_value(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - what a file may state
     """Return a value as a file states it, or its default as a file would; None if there is neither."""
     *path, last = steps_of(key)
-    table: Any = values
-    kind: Any = file_keys(values)
-    for step in path:
-        kind = entry_at(kind, step)
-        table = _at(table, step)
+    table: Any = functools.reduce(_at, path, values)
+    keys: object = file_keys(values)
+    kind = functools.reduce(entry_at, path, keys)
     value = _at(table, last)
     if value is None and isinstance(kind, TableSpec) and isinstance(last, str):
         return kind.written_default(last, Values(table if isinstance(table, Mapping) else {}, kind))
@@ -213,3 +229,95 @@ def _plain(key: str, value: Any) -> Any:  # noqa: ANN401 - what a program may se
     if isinstance(value, numbers.Real) and math.isfinite(value):
         return int(value) if isinstance(value, numbers.Integral) else float(value)
     raise CrankworkError(ErrorMessage("value_kind", key=str(key)[:60]))
+
+
+class Origin(NamedTuple):
+    """Origin of a value: kind, key, and line or option.
+
+    Kinds: stated on a `line`, set by an `option`, `follows_line` or `follows_option` from such a value, or `default`.
+    """
+
+    kind: str
+    path: str
+    line: str = ""
+
+
+class _File:
+    """A machine file with settings applied."""
+
+    def __init__(self, source: str, name: str, overrides: Sequence[str | Setting]) -> None:
+        self._values, self._lines = parse(source, name), locate(source)
+        self._settings = apply_settings(self._values, overrides)
+        self._keys = file_keys(self._values)
+        self._stated = stated_numbers(self._keys.read(self._values, "", Reader.of(self._values)) or {})
+
+    def origin(self, path: str, values: Iterable[float]) -> Origin:
+        """Return the origin of a value that the calculation attributes to a path.
+
+        `values`: the value in SI, and in the units in which a plain number may be stated.
+        """
+        values = tuple(values)
+        for name in self._candidates(path):
+            origin = self._origin_at(name)
+            if origin is not None:
+                return origin if self._is(name, values) else origin._replace(kind=f"follows_{origin.kind}")
+        return Origin("default", path)
+
+    def _candidates(self, path: str) -> Iterator[str]:
+        """Yield the possible keys of a value: its path, equivalent keys, and keys that determine it."""
+        yield path
+        around, _, entry = path.rpartition("[")
+        if around in self._lines and path not in self._lines:
+            # a list read from a column of a file
+            yield around
+        named = self._raw(around)
+        if isinstance(named, str):
+            # a position may be the name of a fixed point
+            yield f"fixed_points.{named}[{entry}"
+        *tables, last = path.split(".")
+        known: Any = self._keys
+        for name in tables:
+            known = known.keys[name].kind if isinstance(known, TableSpec) and name in known.keys else None
+        if isinstance(known, TableSpec) and last in known.keys:
+            yield from (".".join([*tables, other]) for other in known.keys[last].instead_of)
+        parts = re.split(r"[.\[]", path)
+        above = [path[: len(path) - len("".join(parts[-1:])) - 1]]
+        yield from (table for table in above if not isinstance(self._raw(table), dict | None))
+        for pattern, keys in _FOLLOWS:
+            match = re.fullmatch(pattern, path)
+            yield from (match.expand(key) for key in keys if match)
+
+    def _origin_at(self, name: str) -> Origin | None:
+        setting = next(
+            (candidate for candidate in self._settings if re.match(rf"{re.escape(candidate.key)}($|[.\[])", name)), None
+        )
+        if setting is not None:
+            return Origin("option", name, setting.option)
+        return Origin("line", name, str(self._lines[name])) if name in self._lines else None
+
+    def _is(self, name: str, values: tuple[float, ...]) -> bool:
+        stated = self._stated.get(name)
+        if stated is None:
+            return False
+        return any(
+            math.isclose(stated.value, value, rel_tol=_SAME) for value in (values[:1] if stated.unit else values)
+        )
+
+    def _raw(self, path: str) -> Any:  # noqa: ANN401 - whatever a file holds
+        """Return the raw value at a path, None if there is none."""
+        return functools.reduce(_at, path.split("."), self._values)
+
+
+def origins(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Callable[[str, Iterable[float]], Origin]:
+    """Return a function that maps an input path and its value to its origin: line, option or default.
+
+    A value that differs from the stated one follows from it.
+    """
+    return origins_of(files.read_text(Path(path)), str(path), overrides)
+
+
+def origins_of(
+    source: str, name: str = "text", overrides: Sequence[str | Setting] = ()
+) -> Callable[[str, Iterable[float]], Origin]:
+    """Return `origins` of a text."""
+    return _File(source, name, overrides).origin

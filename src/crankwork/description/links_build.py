@@ -86,8 +86,7 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
     loads = _loads(values, linkage, reader)
     chambers, charges = build_chambers(values, linkage, mechanism, reader, method.pi)
     if "driver" in values:
-        check_loads(values, reader)
-        check_gas(values, reader)
+        _check_by_angle(values, reader)
     drive = _drive(values, method, reader)
     transient = _transient(values, reader)
     if reader.problems or mechanism is None or linkage is None:
@@ -173,8 +172,8 @@ def _geometry(values: Values, reader: Reader) -> dict[str, Any]:
         elsewhere = _RATES if _weighs(values) else (*_RATES, "inertia")
         tables["crank"] = {name: value for name, value in tables["crank"].items() if name not in elsewhere}
     if "driver" in values:
-        check_driver(values, reader)
-        check_halves(values, reader)
+        _check_driver(values, reader)
+        _check_halves(values["driver"], reader)
         named = {
             name: _plain(value) for name, value in values["driver"].items() if name not in ("start", "period", "law")
         }
@@ -460,7 +459,7 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, a
     return value
 
 
-def check_driver(values: Values, reader: Reader) -> None:
+def _check_driver(values: Values, reader: Reader) -> None:
     """Report tables and keys that a machine with a driver cannot have, or needs."""
     driver, crank = values["driver"], values.get("crank")
     for name in _TURNING:
@@ -478,23 +477,18 @@ def check_driver(values: Values, reader: Reader) -> None:
             reader.add_error(f"crank.{name}", ErrorMessage("missing", advice=(f'{name} = "{example}"',)))
 
 
-def check_halves(values: Values, reader: Reader) -> None:
+def _check_halves(driver: Values, reader: Reader) -> None:
     """Report barrel and rod without a driving cylinder."""
-    driver = values["driver"]
     for name in ("barrel", "rod"):
         if name in driver and "cylinder" not in driver and not reader.has_errors("driver.cylinder"):
             reader.add_error(f"driver.{name}", ErrorMessage("half_alone", key=name))
 
 
-def check_loads(values: Values, reader: Reader) -> None:
-    """Report loads over the crank angle in a machine without one."""
+def _check_by_angle(values: Values, reader: Reader) -> None:
+    """Report loads and gas over the crank angle, which a machine with a driver that follows a law does not have."""
     for number, load in enumerate(values["loads"], start=1):
         if load and ((load["kind"] == "torque" and "at" in load) or load["against"] == "angle"):
             reader.add_error(f"loads[{number}]", ErrorMessage("load_by_angle"))
-
-
-def check_gas(values: Values, reader: Reader) -> None:
-    """Report gas with a pressure over the crank angle, which a driver with a law does not have."""
     for name, charge in values.get("chambers", {}).items():
         path, table = f"chambers.{name}", charge or {}
         keys = [

@@ -18,7 +18,6 @@ from crankwork import files
 from crankwork.analysis import prepare
 from crankwork.description import keys as engine_files
 from crankwork.description.build import SIZES, build_machine
-from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.keys import (
     FORMATS,
     LOADED_FILE,
@@ -42,6 +41,7 @@ from crankwork.description.links_keys import (
 from crankwork.description.measured_build import add_questions, in_file
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
 from crankwork.description.stated import file_inputs, mistaken_names
+from crankwork.description.table_file import resolve_file_columns
 from crankwork.description.toml_edit import locate
 from crankwork.description.value_types import Reader, is_one_line, look_alikes
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError

@@ -15,10 +15,10 @@ from crankwork.analysis.prepared import PreparedCylinder
 from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.document import Description, load
-from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.keys import CHAMBER_CYCLE, LOADING, OF_LINKAGE, OWN_SIZES
 from crankwork.description.machine_file import apply_settings, file_keys, idle_keys, read, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
+from crankwork.description.table_file import resolve_file_columns
 from crankwork.description.toml_edit import TomlPositions, key_text, toml, with_value
 from crankwork.description.value_types import Reader
 from crankwork.dynamics.masses import CrankGearMasses

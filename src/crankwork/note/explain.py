@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from crankwork.analysis.results import Results
-from crankwork.description.source_locations import Origin
+from crankwork.description.document import Origin
 from crankwork.formula.calculation_lines import FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.formula.explanation import ExplainedValue, Explanation, has_argument_symbol, is_given
 from crankwork.formula.expression import symbol

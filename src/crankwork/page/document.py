@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from crankwork.analysis import Array, Results
 from crankwork.browser import script, style
-from crankwork.errors import CrankworkError, InputError
+from crankwork.errors import InputError
 from crankwork.formula.calculation_lines import FormulaLine, ValueLine
 from crankwork.formula.explanation import Explanation, has_argument_symbol
 from crankwork.formula.expression import symbol
@@ -360,7 +360,9 @@ def _sliders(live: LivePage, moved: SliderDesigns, language: Language) -> list[s
             f"<span>{unit}</span></p>",
         ]
         if slider.stop is not None:
-            stop = html.escape(_cause(slider.stop, language))
+            # the first of several mistakes
+            cause = slider.stop.problems[0].message if isinstance(slider.stop, InputError) else slider.stop.args[0]
+            stop = html.escape(in_language(cause, language))
             parts.append(f'<p class="words">{words("slider_stops", language)} {stop}</p>')
     return [
         *parts,
@@ -369,11 +371,6 @@ def _sliders(live: LivePage, moved: SliderDesigns, language: Language) -> list[s
         f' data-wrong="{words("slider_wrong", language)}"></output></p>',
         f'<p class="words when">{words("slider_filed", language)}</p></section>',
     ]
-
-
-def _cause(error: CrankworkError, language: Language) -> str:
-    """Return why there is no machine: the first of several messages."""
-    return in_language(error.problems[0].message if isinstance(error, InputError) else error.args[0], language)
 
 
 def _machine(film: Animation, language: Language, *, is_filed: bool) -> list[str]:

@@ -594,8 +594,9 @@ class FigureInterpolation:
 
     def drawings(self, name: str) -> list[Drawing]:
         """Return a figure of all machines; empty if one lacks it or it is a construction."""
-        drawn = [figures[name] for figures in self._drawn if name in figures and not _is_constructed(figures[name])]
-        return drawn if len(drawn) == len(self._drawn) else []
+        drawn = [figures[name] for figures in self._drawn if name in figures]
+        curves = (x for drawing in drawn for plot in drawing.plots for x, _ in plot.curves.values())
+        return [] if len(drawn) < len(self._drawn) or any(np.ndim(x) > 1 for x in curves) else drawn
 
     def curve(self, name: str, index: int, x: Array, plots: Sequence[Plot], drawn: Sequence[Drawing]) -> dict[str, Any]:
         """Return the points of a curve in all machines; empty if polynomials do not interpolate it.
@@ -643,11 +644,6 @@ class FigureInterpolation:
             return {}
         same = all(position == across[0] for position in across)
         return {"between": {"x": across[:1] if same else across, "y": up, "at": places}}
-
-
-def _is_constructed(drawn: Drawing) -> bool:
-    """Return whether a drawing has construction lines in addition to curves."""
-    return any(np.ndim(x) > 1 for plot in drawn.plots for x, _ in plot.curves.values())
 
 
 def _at(plot: Plot, stated: Plot, name: str) -> Array:

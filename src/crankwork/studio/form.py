@@ -79,11 +79,8 @@ def _place(kinds: TableSpec, key: str) -> tuple[str, object, KeySpec | None]:
     return path, table, table.keys.get(name) if isinstance(table, TableSpec) else None
 
 
-def _kind(kinds: TableSpec, path: str) -> object:
-    kind: object = kinds
-    for step in steps_of(path) if path else ():
-        kind = entry_at(kind, step)
-    return kind
+def _kind(kinds: object, path: str) -> object:
+    return functools.reduce(entry_at, steps_of(path) if path else (), kinds)
 
 
 def _stated(values: Mapping[str, Any], path: str) -> Mapping[str, Any]:
@@ -260,13 +257,9 @@ def additions(description: Description, results: Results | None) -> list[Additio
         added = [*_of_linkage(values, results), *added]
     elif "rod" in keys and results is not None and results.method.is_exact:
         parts = _of_linkage(linkage_of(description), results)
-        added += (addition for addition in parts if all(_is_of_engine(key) for key in addition.fields))
+        # the file of an engine has only these tables of a linkage
+        added += (part for part in parts if all(re.split(r"[.[]", key)[0] in LOADING for key in part.fields))
     return [addition for addition in added if addition.fields]
-
-
-def _is_of_engine(key: str) -> bool:
-    """Return whether the file of an engine has a key of a linkage."""
-    return key.partition(".")[0].removesuffix("[]") in LOADING
 
 
 def with_addition(description: Description, addition: Addition) -> Description:
@@ -285,7 +278,7 @@ def with_addition(description: Description, addition: Addition) -> Description:
 def _of_linkage(values: Mapping[str, Any], results: Results | None) -> Iterator[Addition]:
     crank, links = values.get("crank", {}), values.get("links", {})
     grounded = values.get("fixed_points", {})
-    size, unit = _size(crank)
+    size, unit = _si(crank.get("radius")) or 0.1, _unit(crank.get("radius"))
     parts = [crank, *links.values(), *values.get("sliders", {}).values()]
     moving = [name for name in dict.fromkeys(name for part in parts for name in _points(part)) if name not in grounded]
     yield Addition("masses", "", dict(_masses(values)))
@@ -510,12 +503,6 @@ def _is_joint(values: Mapping[str, Any], name: str) -> bool:
     bodies = [part for table in ("links", "sliders", "geared") for part in values.get(table, {}).values()]
     held = [[crank.get("pivot"), *_points(crank)], list(values.get("fixed_points", {})), *map(_points, bodies)]
     return sum(name in names for names in held) == 2
-
-
-def _size(crank: Mapping[str, Any]) -> tuple[float, str]:
-    """Return the radius of the crank [m] and its unit."""
-    stated = crank.get("radius")
-    return _si(stated) or 0.1, _unit(stated)
 
 
 def _read(stated: object, dimension: str) -> MeasuredValue | None:

@@ -19,9 +19,8 @@ import numpy as np
 from crankwork import files
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.full_turn import full_turn_bounds
-from crankwork.description.document import Description
+from crankwork.description.document import Description, origins_of
 from crankwork.description.machine_file import template
-from crankwork.description.source_locations import origins_of
 from crankwork.description.toml_edit import document
 from crankwork.errors import CrankworkError, InputError
 from crankwork.locale import ErrorMessage, Language, in_language, translate
@@ -236,10 +235,11 @@ class Session:
         return self._read[1]
 
     def _fresh(self, text: str) -> Description:
-        name = _shown(self._path) if self._path else "text"
+        path, here = self._path, Path.cwd()
+        name = "text" if path is None else str(path.relative_to(here) if path.is_relative_to(here) else path)
         if len(text.encode("utf-8", "replace")) > files.MAX_MACHINE_FILE:
             raise CrankworkError(ErrorMessage("path_large_kb", path=name, size=files.MAX_MACHINE_FILE >> 10))
-        return Description(text, name, folder=self._path and self._path.parent)
+        return Description(text, name, folder=path and path.parent)
 
     def _computed(self, text: str) -> Results:
         """Return the cached results of a text."""
@@ -333,11 +333,6 @@ def _first(names: Sequence[str]) -> list[str]:
     """Return the figures shown initially: curves before constructions."""
     built = ("plan", "plans", "lever", "centrodes", "brix", "tolle", "paths")
     return sorted(names, key=lambda name: name.endswith(built))[:3]
-
-
-def _shown(path: Path) -> str:
-    """Return a path relative to the current folder if it is inside."""
-    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def _files(description: Description) -> list[str]:

@@ -19,9 +19,8 @@ from crankwork.show.chart import CIRCLE, DOT, Graph, Row, limits, round_ticks, s
 from crankwork.show.chart_layout import current_layout
 from crankwork.show.contour import Field, contours
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
-from crankwork.study.chunks import StudyAggregate, feasible_designs, is_shown
+from crankwork.study.chunks import Histogram, Index, StudyAggregate, feasible_designs, is_shown, thin_front
 from crankwork.study.parameter_map import Map
-from crankwork.study.ranking import Histogram, Index, thin_front
 from crankwork.study.study_file import Study
 from crankwork.study.study_text import axis_title, ranked, value_text
 from crankwork.study.varied_field import VariedField

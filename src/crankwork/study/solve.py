@@ -245,7 +245,7 @@ def solve(  # noqa: PLR0913 - equation, unknown and options of the search
     target, machine, results = _first_with_value(parts, machine_with, where)
     value = value_function(target, machine, results)
     if is_rounding(target, results) and _is_zero(target, machine_with, where):
-        value = _zero
+        value = lambda _: 0.0  # noqa: E731 - as the other ways to a value
 
     def above(field_value: float) -> float:
         try:
@@ -291,10 +291,6 @@ def _is_zero(target: Target, machine_with: Callable[[float | None], Machine], wh
         except CrankworkError:
             continue
     return True
-
-
-def _zero(_: Machine) -> float:
-    return 0.0
 
 
 def solution_text(solution: Solution, language: Language = "en") -> str:
