@@ -9,8 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from crankwork.cylinders.crankshaft import Bearings, PinBearing, Shaft
-from crankwork.cylinders.layout import Layout
+from crankwork.cylinders.layout import Bearings, Layout, PinBearing, Shaft
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import as_slider_crank

@@ -29,15 +29,17 @@ from crankwork.working_cycle.calculated_cycle import Calculated
 from crankwork.working_cycle.closed_gas import (
     EXPANSION,
     ClosedGas,
+    HeatReleaseData,
+    Stage,
     closed_gas,
     internal_energy_change,
+    stages,
     wiebe_burning_rate,
     wiebe_burnt_fraction,
     woschni_coefficient,
     woschni_gas_speed,
 )
 from crankwork.working_cycle.diagram_parts import from_before_zero
-from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.pressure_models import _solved, heat_release
 from each import for_each
 from engines import cylinder_volumes

@@ -13,9 +13,8 @@ from crankwork.formula.traced_value import Array, FormulaCall, TracedValue, in_o
 from crankwork.quantities import QUANTITIES
 from crankwork.units import from_si
 from crankwork.working_cycle.calculated_cycle import Notice
-from crankwork.working_cycle.closed_gas import ClosedGas
+from crankwork.working_cycle.closed_gas import ClosedGas, HeatReleaseData
 from crankwork.working_cycle.heat_capacities import HIGH_LIMIT, LOW_LIMIT, ZERO_CELSIUS, HeatLaw
-from crankwork.working_cycle.heat_data import HeatReleaseData
 
 
 class Range(NamedTuple):
