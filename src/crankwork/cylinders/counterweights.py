@@ -171,10 +171,8 @@ def balance_sum(parts: Iterable[OrderBalance]) -> tuple[OrderBalance, ...]:
     for part in parts:
         of_order.setdefault(part.order, []).append((part.force, part.moment))
     return tuple(
-        OrderBalance(order, *(_ellipse_sum(ellipses) for ellipses in zip(*balances, strict=True)))
+        OrderBalance(
+            order, *(Ellipse(*map(vector_sum, zip(*ellipses, strict=True))) for ellipses in zip(*balances, strict=True))
+        )
         for order, balances in sorted(of_order.items())
     )
-
-
-def _ellipse_sum(parts: Sequence[Ellipse]) -> Ellipse:
-    return Ellipse(vector_sum([part.forward for part in parts]), vector_sum([part.backward for part in parts]))

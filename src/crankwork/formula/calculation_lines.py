@@ -177,7 +177,9 @@ class Snapshot:
             done.add(mark)
             stack.append((known, True))
             if isinstance(law.node, FormulaCall | Arithmetic | Sum):
-                stack.extend((operand, False) for operand in reversed(law.node.operands) if _is_made(operand))
+                stack.extend(
+                    (operand, False) for operand in reversed(law.node.operands) if isinstance(operand.node, _MADE)
+                )
 
     def same(self, known: TracedValue) -> object:
         """Return the mark shared by all values that the same operation gives from the same operands."""
@@ -361,11 +363,9 @@ def _written_in_place(known: TracedValue) -> Formula:
     return Formula(lambda value: value, base_key(known.key), "")
 
 
-def _is_made(known: TracedValue) -> bool:
-    return isinstance(known.node, FormulaCall | Arithmetic | Sum | Piecewise)
-
-
 _PRIMED = ("{}′", "{}″")
+# nodes with lines of their own
+_MADE = FormulaCall | Arithmetic | Sum | Piecewise
 
 
 def is_renamed(name: str, operand: TracedValue) -> bool:

@@ -292,15 +292,11 @@ def assembled(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath]
         if bad is not None or between:
             # the first failure from the start of the driver
             lost = [*positions[bad if bad is not None else []].tolist(), *between]
-            raise _unreached(mechanism.driver, group, min(lost, key=lambda position: abs(position - law.start)))
+            nearest = min(lost, key=lambda position: abs(position - law.start))
+            turns, links = mechanism.driver.turns, ", ".join(group_links(group))
+            size = math.degrees(nearest) if turns else nearest * 1e3
+            raise GeometryError(ErrorMessage("law_unreached_angle" if turns else "law_unreached", links=links, at=size))
     return place_at(mechanism, coordinates(mechanism.driver, grid), paths=paths)
-
-
-def _unreached(driver: Driver, group: Dyad | Chain, coordinate: float) -> GeometryError:
-    name, size = (
-        ("law_unreached_angle", math.degrees(coordinate)) if driver.turns else ("law_unreached", coordinate * 1e3)
-    )
-    return GeometryError(ErrorMessage(name, links=", ".join(group_links(group)), at=size))
 
 
 def _assembled_at(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath] | None) -> Placed:
