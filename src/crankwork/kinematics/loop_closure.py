@@ -243,7 +243,7 @@ def solve_positions(matrix: Array, right: Array) -> Array:
     try:
         return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
     except np.linalg.LinAlgError:
-        known = np.isfinite(matrix).all(axis=(-2, -1)) & np.isfinite(right).all(axis=-1)
+        known = np.asarray(np.isfinite(matrix).all(axis=(-2, -1)) & np.isfinite(right).all(axis=-1))
         known &= np.linalg.det(np.where(known[:, None, None], matrix, 0.0)) != 0
         solution = np.full_like(right, np.nan)
         solution[known] = np.linalg.solve(matrix[known], right[known, :, None])[..., 0]

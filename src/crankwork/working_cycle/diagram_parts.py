@@ -161,7 +161,7 @@ def diagram_of_parts(
         end, state = float(degrees[-1]), (0.0, 0.0, 0.0)
         named |= {name: (float(angle), pressure) for name, angle, pressure in knots if not name.startswith(AUXILIARY)}
         if part.law == "polytropic":
-            state = (*states[part.reference], float(part.exponent))
+            state = (*states[part.reference], float(to_number(part.exponent)))
             stated, pressures = pressures, np.asarray(polytropic_pressure(*state[:2], volume_at(degrees), state[2]))
             missed, name = float(stated[-1] - pressures[-1]), knots[-1].name
             if name in named and abs(missed) > _CLOSING * max(abs(stated[-1]), abs(pressures[-1])):
