@@ -9,8 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from crankwork.cylinders.crankshaft import Bearings, PinBearing, Shaft
-from crankwork.cylinders.layout import Layout
+from crankwork.cylinders.layout import Bearings, Layout, PinBearing, Shaft
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import as_slider_crank
@@ -26,7 +25,7 @@ from crankwork.units import System
 
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
-    from crankwork.dynamics.efficiency import Series
+    from crankwork.dynamics.efficiency import Chain
     from crankwork.dynamics.friction import Friction
     from crankwork.dynamics.redundant import RedundantLink
     from crankwork.dynamics.tabulated_inertia import Differences, TabulatedBody
@@ -243,8 +242,8 @@ class Drive:
         Of the motor. [W]
     fluctuation : float or None
         Required fluctuation of the speed, for which a flywheel is sized. [-]
-    chain : Series or None
-        The given efficiencies that give the total.
+    chain : tuple or None
+        The given efficiencies that give the total; those of an inner tuple are in parallel.
     wheel : Wheel or None
         Further data of the flywheel, given or to be sized.
     losses : str
@@ -260,7 +259,7 @@ class Drive:
     motor: GearedMotor | None = None
     rated_power: float = 0.0
     fluctuation: float | None = None
-    chain: Series | None = None
+    chain: Chain | None = None
     wheel: FlywheelSpec | None = None
     losses: Literal["", "drive", "machine"] = ""
     selection: MotorSelection | None = None

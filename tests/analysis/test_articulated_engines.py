@@ -12,7 +12,7 @@ import crankwork
 from crankwork.analysis.cylinder_balance import engine_balance
 from crankwork.analysis.cylinders import multi_cylinder_engine
 from crankwork.analysis.prepared import prepare
-from crankwork.cylinders.throw import throw_mechanism
+from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.dynamics.operating_state import OperatingState

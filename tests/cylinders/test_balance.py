@@ -15,7 +15,7 @@ from crankwork.cylinders.balance import (
     order_inertia_force,
     sampled_harmonics,
 )
-from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors, vector_sum
+from crankwork.cylinders.counterweights import Ellipse, OrderBalance, balance_sum, unit_vectors, vector_sum
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid

@@ -7,14 +7,15 @@ import pytest
 
 from crankwork.cylinders.balance import free_forces, inertia_harmonics
 from crankwork.cylinders.counterweights import (
+    OrderBalance,
     Unbalance,
+    balance_sum,
     counterweight_moment,
     in_two_planes,
     rotating_unbalances,
     throw_counterweights,
     turning_forces,
 )
-from crankwork.cylinders.ellipse import OrderBalance, balance_sum
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.slider_crank import SliderCrank

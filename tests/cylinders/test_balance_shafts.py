@@ -11,8 +11,7 @@ from crankwork.cylinders.balance import (
     layout_factors,
     shaft_forces,
 )
-from crankwork.cylinders.counterweights import rotating_unbalances, throw_counterweights, turning_forces
-from crankwork.cylinders.ellipse import balance_sum
+from crankwork.cylinders.counterweights import balance_sum, rotating_unbalances, throw_counterweights, turning_forces
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.kinematics.slider_crank import SliderCrank
 from each import for_each

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import crankwork
-from crankwork.cylinders import bearings
+from crankwork.cylinders import load_vectors
 from crankwork.cylinders.load_vectors import BearingLoad, rotated, rotated_by
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
@@ -37,7 +37,7 @@ def _swing(ratio=0.3, offset=0.0):
 
 
 def _crank_frame_load(radial, tangential, inertia):
-    return BearingLoad(-bearings.crankpin_radial_force(radial, inertia, 0.0), tangential)
+    return BearingLoad(-load_vectors.crankpin_radial_force(radial, inertia, 0.0), tangential)
 
 
 def _close(one, other, tolerance=1e-13):
@@ -53,13 +53,13 @@ def test_a_load_has_one_size_in_every_frame(radial, tangential, inertia, ratio, 
     load = _crank_frame_load(radial, tangential, inertia)
     scale = 1e-13 * (1 + np.max(load.resultant))
     frames = (
-        bearings.big_end_bearing_load(load, _swing(ratio)),
+        load_vectors.big_end_bearing_load(load, _swing(ratio)),
         rotated(load, GRID.sin, GRID.cos),
         rotated_by(load, angle),
     )
     for other in frames:
         assert np.max(np.abs(other.resultant - load.resultant)) <= scale
-    assert np.array_equal(bearings.crankpin_load(tangential, radial, inertia), load.resultant)
+    assert np.array_equal(load_vectors.crankpin_load(tangential, radial, inertia), load.resultant)
 
 
 def test_quarter_turns_are_exact():
@@ -129,7 +129,7 @@ def _note_load(angle, force):
 def engine():
     results = crankwork.analyse(crankwork.read(TESTS.parent / "examples" / "spark-engine.toml"))
     masses, solved = results.machine.masses, results.solved
-    inertia = float(bearings.big_end_inertia_force(masses.rod_big_end, solved.lengths.crank_radius, solved.speed))
+    inertia = float(load_vectors.big_end_inertia_force(masses.rod_big_end, solved.lengths.crank_radius, solved.speed))
     return results, inertia, solved.space.area
 
 
@@ -160,8 +160,8 @@ def test_a_rod_without_mass_is_loaded_along_itself(force, ratio, offset):
     swing = _swing(ratio, offset)
     load = _crank_frame_load(force * swing.cos_sum / swing.cos, force * swing.sin_sum / swing.cos, 0.0)
     along = force / swing.cos
-    assert _close(bearings.big_end_bearing_load(load, swing), (along, 0 * along))
-    assert _close(bearings.small_end_bearing_load(force, force * swing.sin / swing.cos, swing), (-along, 0 * along))
+    assert _close(load_vectors.big_end_bearing_load(load, swing), (along, 0 * along))
+    assert _close(load_vectors.small_end_bearing_load(force, force * swing.sin / swing.cos, swing), (-along, 0 * along))
 
 
 @for_each("offset", [0.0, 0.004])
@@ -182,11 +182,11 @@ def test_big_end_and_small_end_forces_move_the_rod(offset, inertia_excess):
     P = gas - masses.reciprocating * a
     side = P * swing.sin / swing.cos - inertia_excess * eps / (l * swing.cos)
     radial, tangential = P * grid.cos - side * grid.sin, P * grid.sin + side * grid.cos
-    inertia = bearings.big_end_inertia_force(big, r, w)
-    big_end = bearings.big_end_bearing_load(_crank_frame_load(radial, tangential, inertia), swing)
-    pin = bearings.piston_pin_force(gas, masses.piston, a, 0.0)
-    small_end = bearings.small_end_bearing_load(pin, side, swing)
-    assert np.allclose(small_end.resultant, bearings.small_end_load(pin, side), rtol=1e-13)
+    inertia = load_vectors.big_end_inertia_force(big, r, w)
+    big_end = load_vectors.big_end_bearing_load(_crank_frame_load(radial, tangential, inertia), swing)
+    pin = load_vectors.piston_pin_force(gas, masses.piston, a, 0.0)
+    small_end = load_vectors.small_end_bearing_load(pin, side, swing)
+    assert np.allclose(small_end.resultant, load_vectors.small_end_load(pin, side), rtol=1e-13)
     # in the cylinder frame, whose x is away from the crankshaft
     crank = -r * w**2 * np.exp(1j * grid.angle)
     along_rod = swing.cos - 1j * swing.sin
@@ -202,6 +202,6 @@ def test_big_end_and_small_end_forces_move_the_rod(offset, inertia_excess):
 
 
 def test_the_weight_of_the_piston_group_acts_along_the_axis():
-    without = bearings.piston_pin_force(100.0, 0.5, 20.0, 0.0)
-    assert bearings.piston_pin_force(100.0, 0.5, 20.0, 0.5 * 9.81) - without == pytest.approx(4.905)
+    without = load_vectors.piston_pin_force(100.0, 0.5, 20.0, 0.0)
+    assert load_vectors.piston_pin_force(100.0, 0.5, 20.0, 0.5 * 9.81) - without == pytest.approx(4.905)
     assert math.isclose(without, 90.0)

@@ -15,8 +15,8 @@ from crankwork.description.machine_file import FILES, json_schema, read_machine,
 from crankwork.description.schema import DefaultBy, TableSpec, Values
 from crankwork.description.value_types import MeasuredValue, Quantity, Reader
 from crankwork.errors import InputError
+from crankwork.working_cycle.closed_gas import HeatReleaseData
 from crankwork.working_cycle.cycle_data import GrinevetskyData
-from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.ideal import IdealData
 from each import for_each
 

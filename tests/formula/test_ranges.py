@@ -1,12 +1,9 @@
 """Ranges of formulas: what is put in from outside is told once, at its farthest."""
 
-from crankwork.formula.traced_value import AngleFunction, TracedValue, given
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.formula.traced_value import TracedValue, given
 from crankwork.report.notices import notice_text
 from crankwork.working_cycle.heat_capacities import air_heat, mixture_heat
 from crankwork.working_cycle.usual_ranges import range_notices
-
-SIN = TracedValue(AngleFunction("sin"), "crank_angle")
 
 
 def _heat(celsius: float) -> TracedValue:
@@ -25,10 +22,3 @@ def test_the_value_farthest_outside_is_told_wherever_the_formula_is_used():
         "mean molar heat of the fresh charge: t_c = 1700 °C lies outside 0 to 1500 °C, where its formula holds; "
         "the formula is used"
     )
-
-
-def test_what_varies_is_looked_at_over_the_angles():
-    column = air_heat(given("compression_celsius", 1600.0) * SIN)
-    assert list(range_notices([column])) == []
-    ((_, said),) = range_notices([column], CrankGrid.from_degrees([10.0, 90.0, 170.0]))
-    assert said["value"] == 1600.0

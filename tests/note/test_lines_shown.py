@@ -10,7 +10,7 @@ import pytest
 
 import crankwork
 from crankwork.analysis.cylinder_forces import columns, force_functions
-from crankwork.dynamics.efficiency import Parallel, Series, efficiency, traced_efficiency
+from crankwork.dynamics.efficiency import efficiency, traced_efficiency
 from crankwork.errors import MethodError
 from crankwork.formula.calculation_lines import FormulaLine, Snapshot, SumLine, ValueLine
 from crankwork.formula.expression import evaluate
@@ -224,12 +224,12 @@ def test_torques_of_a_linkage_are_shown_where_asked():
 
 
 def test_a_chain_of_efficiencies_multiplies_to_that_of_the_chain():
-    chain = Series((Parallel((0.98, 0.98)), 0.98, 0.99, Parallel((0.9, Series((0.95, 0.8)), 0.7), (0.5, 0.3, 0.2))))
+    chain = ((0.98, 0.98), 0.98, 0.99, (0.9, 0.8, 0.7, 0.6))
     found = traced_efficiency(chain)
-    assert found.value == 0.98 * 0.98 * 0.99 * (0.5 * 0.9 + 0.3 * (0.95 * 0.8) + 0.2 * 0.7)
+    assert found.value == pytest.approx(0.98 * 0.98 * 0.99 * 0.75, rel=1e-15)
     line = Snapshot(CrankGrid.from_degrees, 0.0).step(found)
     assert [key for _, key in line.named] == [f"efficiency.{i}" for i in range(1, 5)]
-    assert efficiency(0.9) == 0.9
+    assert efficiency((0.9,)) == 0.9
 
 
 def test_a_measured_pressure_is_given_and_not_calculated():

@@ -15,7 +15,6 @@ import pytest
 import crankwork
 from crankwork.analysis.mechanism import differences
 from crankwork.description.machine_file import read_machine, template
-from crankwork.dynamics.efficiency import Parallel, Series
 from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import evaluate
 from crankwork.locale import texts, translate
@@ -295,8 +294,8 @@ def test_an_accelerating_crank_is_said_and_worked():
 def test_the_chain_of_efficiencies_is_worked_where_it_is_known():
     whole = results("press")
     drive = replace(whole.machine.drive)
-    half = Parallel((0.98, 0.98))
-    object.__setattr__(drive, "chain", Series((half, 0.98, 0.99, 0.86, 0.86, 0.99, half)))
+    half = (0.98, 0.98)
+    object.__setattr__(drive, "chain", (half, 0.98, 0.99, 0.86, 0.86, 0.99, half))
     other = replace(whole, solved=replace(whole.solved, machine=replace(whole.machine, drive=drive)))
     assert worked(note_from(other, "ru"))["η"] == pytest.approx(0.98**3 * 0.99**2 * 0.86**2, rel=1e-12)
 

@@ -8,8 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from crankwork.formula.calculation_lines import FormulaLine, Snapshot, ValueLine, symbols_of, without_noise
-from crankwork.formula.explanation import Explanation
+from crankwork.formula.calculation_lines import Explanation, FormulaLine, Snapshot, ValueLine, symbols_of, without_noise
 from crankwork.formula.expression import FORMULAS, Operation, evaluate, record, symbol, text
 from crankwork.formula.traced_value import Arithmetic, FormulaCall, Sum, given, total
 from crankwork.kinematics.crank_grid import CrankGrid

@@ -23,11 +23,13 @@ from crankwork.cylinders.balance import (
     shaft_forces,
 )
 from crankwork.cylinders.counterweights import (
+    OrderBalance,
+    balance_sum,
     rotating_unbalances,
     throw_counterweights,
     turning_forces,
+    unit_vectors,
 )
-from crankwork.cylinders.ellipse import OrderBalance, balance_sum, unit_vectors
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank

@@ -261,7 +261,6 @@ def test_what_was_not_given_is_said():
     full = replace(
         PETROL, fuel=FUELS["petrol"], intake_pressure=85e3, residual_pressure=118e3, residual_temperature=1060.0,
         heating=8.0, compression_exponent=1.377, expansion_exponent=1.251, heat_use=0.91, filling=0.96,
-        mechanical_loss="petrol",
     )  # fmt: skip
     assert grinevetsky(full).notices == ()
 
@@ -297,13 +296,9 @@ def test_what_is_unusual_is_said_and_used(changes, code):
     [
         ({"compression_ratio": 0.5}, "above 1"),
         ({"excess_air": -1.0}, "excess_air"),
-        ({"bore": 0.08}, "either power"),
-        ({"power": None, "bore": 0.08}, "belong together"),
         ({"compression_exponent": 1.0}, "exactly 1"),
         ({"lost_stroke": 0.2}, "two-stroke"),
         ({"strokes": 2, "lost_stroke": 1.0}, "below 1"),
-        ({"kind": "gas"}, "petrol or diesel"),
-        ({"mechanical_loss": "steam"}, "petrol_injection"),
         ({"rotational_speed": 90000.0}, "take all"),
         ({"intake_speed": 255.0}, "no fresh charge"),
         ({"heating": -300.0}, "charge of -7 K; correct heating"),

@@ -29,15 +29,17 @@ from crankwork.working_cycle.calculated_cycle import Calculated
 from crankwork.working_cycle.closed_gas import (
     EXPANSION,
     ClosedGas,
+    HeatReleaseData,
+    Stage,
     closed_gas,
     internal_energy_change,
+    stages,
     wiebe_burning_rate,
     wiebe_burnt_fraction,
     woschni_coefficient,
     woschni_gas_speed,
 )
 from crankwork.working_cycle.diagram_parts import from_before_zero
-from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.pressure_models import _solved, heat_release
 from each import for_each
 from engines import cylinder_volumes
@@ -396,11 +398,7 @@ def test_a_usual_cycle_needs_no_notice():
     [
         ({"burning_advance": 140.0}, "closed from"),
         ({"burning_duration": 180.0}, "closed from"),
-        ({"bore": 0.0}, "bore"),
-        ({"burning_shape": -0.5}, "burning_shape"),
-        ({"heat": -1.0}, "heat"),
         ({"heat": 60_000.0}, "more than any fuel gives; write less"),
-        ({"cycle": 540.0}, "540"),
         ({"heat_ratio": 1.02, "heat_ratio_slope": -1e-4}, "exceed 1"),
         ({"cycle": 360.0, "intake_opens": 70.0}, "exhaust open first"),
     ],

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis.results import Listing, Results
-from crankwork.cylinders import bearings as formulas
+from crankwork.cylinders import load_vectors as formulas
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import (
     OilHole,

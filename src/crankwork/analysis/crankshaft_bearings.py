@@ -12,7 +12,7 @@ from crankwork.analysis import traced_inputs
 from crankwork.analysis.bearings import Bearing, bearing_size, loads_on_crankpin
 from crankwork.analysis.cylinder_forces import force_on_rod, inertia_at_big_end, joint_names, on_piston_pin
 from crankwork.analysis.cylinders import MultiCylinderEngine
-from crankwork.cylinders import bearings as formulas
+from crankwork.cylinders import load_vectors as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
 from crankwork.cylinders.layout import CylinderPlace, Layout

@@ -33,8 +33,16 @@ from crankwork.cylinders.balance import (
     sampled_harmonics,
     shaft_forces,
 )
-from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, rotating_unbalances, turning_forces
-from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
+from crankwork.cylinders.counterweights import (
+    Ellipse,
+    OrderBalance,
+    Unbalance,
+    balance_sum,
+    counterweight_moment,
+    rotating_unbalances,
+    turning_forces,
+    unit_vectors,
+)
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
 from crankwork.formula.replay import Samples, replay

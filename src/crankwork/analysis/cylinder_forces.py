@@ -21,7 +21,7 @@ from crankwork.cylinders.articulated import (
     knuckle_acceleration_across,
     knuckle_acceleration_along,
 )
-from crankwork.cylinders.bearings import (
+from crankwork.cylinders.load_vectors import (
     big_end_inertia_force,
     big_end_tangential_force,
     big_end_weight,

@@ -15,9 +15,8 @@ from crankwork.analysis.cylinder_balance import EngineBalance, engine_balance
 from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
 from crankwork.analysis.results import Results
 from crankwork.analysis.shaft_torque import EngineTorque, engine_torque
-from crankwork.cylinders.bearings import big_end_inertia_force
-from crankwork.cylinders.ellipse import Ellipse, balance_sum
-from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.cylinders.counterweights import Ellipse, balance_sum
+from crankwork.cylinders.load_vectors import BearingLoad, big_end_inertia_force
 from crankwork.cylinders.torque import PhaseStar, phase_star, torques_along_shaft
 from crankwork.cylinders.wear import polar_diagram
 from crankwork.formula.replay import Program

@@ -10,8 +10,8 @@ import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.cylinders.layout import CylinderPlace, Layout
-from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import Array
 from crankwork.machine import Engine, Machine
 from crankwork.working_cycle.pressure_models import CornerPressure

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.analysis.prepared import PreparedCylinder, relative_difference
-from crankwork.cylinders.throw import throw_mechanism
+from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.dynamics.operating_state import OperatingState

@@ -8,12 +8,13 @@ the crankpin: delta = knuckle angle - axis - beta of the master rod.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.piston_forces import rod_force, side_force
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
@@ -30,6 +31,8 @@ from crankwork.kinematics.slider_crank import (
     rod_transfer_2,
 )
 from crankwork.locale import ErrorMessage
+from crankwork.mechanism.dyads import RRP
+from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
 
 # Rounding of sums of lengths, relative to the rod length.
 _ROUNDING = 1e-12
@@ -411,3 +414,44 @@ def articulated_forces(
         -(x * grid.cos + y * grid.sin),
         y * grid.cos - x * grid.sin,
     )
+
+
+_UP = math.pi / 2
+
+
+def throw_mechanism(
+    layout: Layout,
+    lengths: SliderCrank,
+    articulated_rods: Sequence[ArticulatedRod | None] = (),
+    offsets: Sequence[float] = (),
+    crankpin: int | None = None,
+) -> Mechanism:
+    """Return the mechanism of a crankpin, by default that of cylinder 1, with the crank turning clockwise.
+
+    Crankpin A, piston pins B1, B2 ... and knuckle pins C2, C3 ... by the numbers of the cylinders; at a crank angle
+    of zero the crank of cylinder 1 lies along its axis. `lengths`: crank, rod and offset of every cylinder, of the
+    master for articulated rods [m]; `articulated_rods`: that of each cylinder that has one; `offsets`: of
+    each cylinder, if they differ [m].
+    """
+    first = layout.places[0]
+    wanted = first.crankpin if crankpin is None else crankpin
+    # a master rod comes before the rods that it carries
+    on_pin = (candidate for candidate in layout.places if candidate.crankpin == wanted)
+    places = sorted(on_pin, key=lambda candidate: candidate.master > 0)
+    points, rods = [], []
+    for place in places:
+        articulated = articulated_rods[place.number - 1] if articulated_rods else None
+        axis = math.radians(place.axis)
+        joint, length = "A", lengths.rod_length
+        offset = offsets[place.number - 1] if offsets else lengths.offset
+        if articulated is not None:
+            angle = math.radians(articulated.knuckle_angle)
+            joint, length, offset = f"C{place.number}", articulated.length, articulated.offset
+            along, across = articulated.knuckle_radius * math.cos(angle), -articulated.knuckle_radius * math.sin(angle)
+            points.append(LinkPoint(joint, f"rod {place.master}", along, across))
+        guide_point = (offset * math.cos(axis), -offset * math.sin(axis))
+        pin, name = f"B{place.number}", f"rod {place.number}"
+        rods.append(RRP(joint, pin, name, length, guide_point=guide_point, guide_angle=_UP - axis))
+    start = _UP - math.radians(first.axis + places[0].pin_angle)
+    crank = Crank(lengths.crank_radius, start=start, direction=-1, pin="A")
+    return Mechanism(crank, tuple(rods), points=tuple(points))

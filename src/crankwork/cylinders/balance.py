@@ -20,8 +20,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.cylinders.counterweights import in_two_planes
-from crankwork.cylinders.ellipse import ComplexArray, Ellipse, OrderBalance, balance_sum, unit_vectors, vector_sum
+from crankwork.cylinders.counterweights import (
+    ComplexArray,
+    Ellipse,
+    OrderBalance,
+    balance_sum,
+    in_two_planes,
+    unit_vectors,
+    vector_sum,
+)
 from crankwork.cylinders.layout import Layout
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula

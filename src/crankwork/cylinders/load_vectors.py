@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import named
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.slider_crank import RodSwing
 
 
 @formula("bearing_force_x", "kolchin_demidov_2008, ch. 7")
@@ -85,3 +86,87 @@ def rotated_by(load: BearingLoad, angle: ArrayLike) -> BearingLoad:
     grid = CrankGrid.from_degrees(angle)
     sin, cos = (float(value) if value.ndim == 0 else value for value in (grid.sin, grid.cos))
     return rotated(load, sin, cos)
+
+
+@formula("big_end_inertia_force", "kolchin_demidov_2008, ch. 7")
+def big_end_inertia_force(m_2: Value, r: Value, w: Value) -> Value:
+    """Inertia force of the rod mass at the crankpin."""
+    return -m_2 * r * w**2
+
+
+@formula("big_end_weight", "artobolevsky_1988, ch. 13")
+def big_end_weight(m_2: Value, g: Value, cos_phi: Value, cos_theta: Value, sin_phi: Value, sin_theta: Value) -> Value:
+    """Weight of the rod mass at the crankpin along the crank arm, positive towards the crankshaft."""
+    return m_2 * g * (cos_phi * cos_theta - sin_phi * sin_theta)
+
+
+@formula("big_end_tangential_force", "artobolevsky_1988, ch. 13")
+def big_end_tangential_force(  # noqa: PLR0913 - one argument per symbol
+    m_2: Value, g: Value, sin_phi: Value, cos_theta: Value, cos_phi: Value, sin_theta: Value, r: Value, eps: Value
+) -> Value:
+    """Weight of the rod mass at the crankpin across the crank arm, less what its angular acceleration takes."""
+    return m_2 * (g * (sin_phi * cos_theta + cos_phi * sin_theta) - r * eps)
+
+
+@formula("crankpin_radial_force", "kolchin_demidov_2008, ch. 7")
+def crankpin_radial_force(K: Value, K_Rb: Value, K_wb: Value) -> Value:
+    """Load on the crankpin along the crank arm."""
+    return K + K_Rb + K_wb
+
+
+@formula("crankpin_tangential_force", "kolchin_demidov_2008, ch. 7")
+def crankpin_tangential_force(T: Value, T_b: Value) -> Value:
+    """Load on the crankpin across the crank arm."""
+    return T + T_b
+
+
+@formula("crankpin_load", "kolchin_demidov_2008, ch. 7")
+def crankpin_load(T: Value, K: Value, K_Rb: Value) -> Value:
+    """Size of the load on the crankpin."""
+    return np.sqrt(T**2 + (K + K_Rb) ** 2)
+
+
+@formula("piston_pin_force", "lukanin_shatrov_2007, ch. 1")
+def piston_pin_force(F_g: Value, m_p: Value, a: Value, F_wp: Value) -> Value:
+    """Force of the piston on its pin along the cylinder axis, without the rod mass at the pin."""
+    return F_g - m_p * a + F_wp
+
+
+@formula("small_end_load", "lukanin_shatrov_2007, ch. 1")
+def small_end_load(P_p: Value, N: Value) -> Value:
+    """Size of the load on the small end of the rod."""
+    return np.sqrt(P_p**2 + N**2)
+
+
+@formula("bearing_pressure", "kolchin_demidov_2008, ch. 7")
+def bearing_pressure(R_b: Value, d_b: Value, l_b: Value) -> Value:
+    """Load per projected area of the bearing."""
+    return R_b / (d_b * l_b)
+
+
+@formula("bearing_load_ratio", "kolchin_demidov_2008, ch. 9")
+def bearing_load_ratio(R_max: Value, R_mean: Value) -> Value:
+    """Largest load over the mean load."""
+    return R_max / R_mean
+
+
+def big_end_bearing_load(load: BearingLoad, swing: RodSwing) -> BearingLoad:
+    """Return the load on the big-end bearing of a rod: the force of the crankpin on it, in the rod frame. [N]
+
+    Opposite to the load on the crankpin, turned by phi + beta; positive x presses the bearing towards the piston pin,
+    as compression does. `load`: force of this rod alone on the crankpin, in the crank frame [N]. Source:
+    kolchin_demidov_2008, ch. 7.
+    """
+    return rotated(load.opposite, swing.sin_sum, swing.cos_sum)
+
+
+def small_end_bearing_load(pin_force: Value, side: Value, swing: RodSwing) -> BearingLoad:
+    """Return the load on the small-end bearing, the force of the piston pin on it, in the rod frame. [N]
+
+    Negative x presses the bearing towards the crankpin, as compression does. The side force of a cylinder that leans
+    has the weight of the piston group across the axis in it. Source: lukanin_shatrov_2007.
+
+    The piston hands on axially what acts on it and sideways what the wall gives back, so the force on the rod
+    needs no rod mass. It is the force along the rod plus the inertia force that moves the rod's small-end mass.
+    """
+    return rotated(BearingLoad(-pin_force, side), swing.sin, swing.cos)

@@ -23,12 +23,11 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Gas
 from crankwork.mechanism.cells import NoCellsError, crank_cells
 from crankwork.mechanism.mechanism import Mechanism
-from crankwork.working_cycle.assignment import AssignedData, assigned_cycle
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, CalculatedPressure
+from crankwork.working_cycle.closed_gas import HeatReleaseData
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import FUELS, Fuel
-from crankwork.working_cycle.grinevetsky import grinevetsky
-from crankwork.working_cycle.heat_data import HeatReleaseData
+from crankwork.working_cycle.grinevetsky import AssignedData, assigned_cycle, grinevetsky
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
 from crankwork.working_cycle.pressure_models import CornerPressure, HeatReleasePressure, MisfirePressure
 from crankwork.working_cycle.rounding import Rounding, Timing

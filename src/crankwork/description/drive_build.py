@@ -8,7 +8,7 @@ from typing import Literal
 
 from crankwork.description.schema import Values
 from crankwork.description.value_types import Reader
-from crankwork.dynamics.efficiency import Chain, Parallel, Series, efficiency
+from crankwork.dynamics.efficiency import Chain, efficiency
 from crankwork.errors import MethodError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive
@@ -33,14 +33,13 @@ def read_drive(values: Values, reader: Reader) -> Drive:
     # unreadable values are already reported
     if chain and all(_is_whole(part) for part in chain):
         table = values["efficiency"]
-        parts: list[Chain] = [Parallel(tuple(part)) if isinstance(part, list) else part for part in chain]
-        series = Series(tuple(parts))
-        total = efficiency(series)
+        parts: Chain = tuple(tuple(part) if isinstance(part, list) else part for part in chain)
+        total = efficiency(parts)
         if total < _LEAST_EFFICIENCY:
             reader.add_error("efficiency.chain", ErrorMessage("efficiency_small", whole=total))
             return drive
         losses: Literal["", "drive", "machine"] = table.get("losses", "")
-        drive = replace(drive, efficiency=total, chain=series, losses=losses)
+        drive = replace(drive, efficiency=total, chain=parts, losses=losses)
         if not losses and any(joints in values.get("friction", {}) for joints in ("pins", "sliders")):
             reader.add_error("efficiency", ErrorMessage("losses_twice"))
         if "decimals" in table:

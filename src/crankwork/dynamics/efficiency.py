@@ -2,71 +2,44 @@
 
 from __future__ import annotations
 
-import math
 import operator
-from dataclasses import dataclass
 from functools import reduce
 
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import TracedValue, given, total
 
-
-@dataclass(frozen=True)
-class Series:
-    """Joints or chains through which all power flows, one after the other."""
-
-    parts: tuple[Chain, ...]  # Their efficiencies [-]
-
-
-@dataclass(frozen=True)
-class Parallel:
-    """Joints or chains between which the power divides."""
-
-    parts: tuple[Chain, ...]  # Their efficiencies [-]
-    shares: tuple[float, ...] = ()  # Share of the power through each; equal where none are given [-]
-
-
-Chain = float | Series | Parallel
+# Efficiencies of joints through which all power flows, one after the other, from more than 0 to 1; inner ones are of
+# joints between which the power divides equally [-]
+Chain = tuple[float | tuple[float, ...], ...]
 
 
 def efficiency(chain: Chain) -> float:
     """Return the efficiency of a chain (artobolevsky_1988, ch. 14). [-]
 
-    Product of efficiencies in series, weighted mean of parallel ones. `chain`: efficiencies of joints, from more than 0
-    to 1, in series and parallel.
+    Product of efficiencies in series, mean of parallel ones.
 
     Examples
     --------
-    >>> round(efficiency(Series((0.98, Parallel((0.9, 0.8)), 0.99))), 5)
+    >>> round(efficiency((0.98, (0.9, 0.8), 0.99)), 5)
     0.82467
     """
     return traced_efficiency(chain).value
 
 
-def traced_efficiency(chain: Chain, key: str = "efficiency", path: str = "efficiency.chain") -> TracedValue:
-    """Return the traced efficiency of a chain; its parts have the keys `key.1`, `key.2` and so on."""
-    match chain:
-        case Series(parts):
-            factors = [
-                traced_efficiency(part, f"{key}.{index}", f"{path}[{index}]")
-                for index, part in enumerate(parts, start=1)
+def traced_efficiency(chain: Chain) -> TracedValue:
+    """Return the traced efficiency of a chain; its parts have the keys `efficiency.1`, `efficiency.2` and so on."""
+    factors = []
+    for index, part in enumerate(chain, start=1):
+        key, path = f"efficiency.{index}", f"efficiency.chain[{index}]"
+        if isinstance(part, tuple):
+            terms = [
+                efficiency_share(1 / len(part), given("efficiency", one, f"{path}[{number}]")).named(f"{key}.{number}")
+                for number, one in enumerate(part, start=1)
             ]
-            return reduce(operator.mul, factors).named(key)
-        case Parallel(parts, shares):
-            shares = shares or (1 / len(parts),) * len(parts)
-            if len(shares) != len(parts) or not math.isclose(sum(shares), 1.0) or min(shares) < 0:
-                raise ValueError(f"{len(parts)} parallel chains need as many shares, none negative, that sum to 1")
-            terms = []
-            for number, (share, part) in enumerate(zip(shares, parts, strict=True), start=1):
-                # a single efficiency has a key of its own, so that its symbol in the formula has an index
-                own = "efficiency" if isinstance(part, float | int) else f"{key}.{number}.0"
-                inner = traced_efficiency(part, own, f"{path}[{number}]")
-                terms.append(efficiency_share(share, inner).named(f"{key}.{number}"))
-            return total(key, terms)
-        case value:
-            if not 0 < value <= 1:
-                raise ValueError(f"an efficiency lies above 0 and not above 1, not at {value:g}")
-            return given(key, value, path)
+            factors.append(total(key, terms))
+        else:
+            factors.append(given(key, part, path))
+    return reduce(operator.mul, factors).named("efficiency")
 
 
 @formula("efficiency", "artobolevsky_1988, ch. 14")

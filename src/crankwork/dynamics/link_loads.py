@@ -109,17 +109,12 @@ def distinct(names: Iterable[str]) -> list[str]:
     return result
 
 
-def all_loads(running: OperatingState) -> AppliedLoads:
-    """Return the loads of a mechanism together with the inertia of its bodies."""
-    return running.loads.also(inertia_loads(running))
-
-
 def link_wrenches(running: OperatingState) -> Wrenches:
     """Return the wrenches of loads and inertia on each moving link.
 
     Force [N] and moment about the origin of the frame of each link [N m].
     """
-    motion, loads = running.motion, all_loads(running)
+    motion, loads = running.motion, running.loads.also(inertia_loads(running))
     wrenches, still = Wrenches(motion), zero_column(motion.grid)
     names = distinct(f"{force.link}.load" for force in loads.forces)
     for name, force in zip(names, loads.forces, strict=True):

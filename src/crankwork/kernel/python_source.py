@@ -219,14 +219,9 @@ class Source:
             lines, rows = _shape("\n".join(self._loop(level, loop, running, ("l",))))
             if len(rows) <= _FEW_ROWS:
                 return lines, rows
-        # two lanes alternate if one waits
-        lanes = self._lanes if any(value.kind in _SLOW for value in loop.values) else ("l",)
+        # two lanes alternate if one waits, where the source is optimised for speed
+        lanes = ("l", "h") if self.is_reduced and any(value.kind in _SLOW for value in loop.values) else ("l",)
         return "\n".join(self._loop(level, loop, running, lanes)), []
-
-    @property
-    def _lanes(self) -> tuple[str, ...]:
-        """Names of lanes that are written alternately, two if the source is optimised for speed."""
-        return ("l", "h") if self.is_reduced else ("l",)
 
     def _loop(
         self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, KernelValue]], lanes: tuple[str, ...]

@@ -16,8 +16,7 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import Closure, LinkMotion, in_link_frame
-from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
+from crankwork.kinematics.dyads import Closure, GroupMotion, LinkMotion, in_link_frame
 from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure, Positions, point_of, solve_positions
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
@@ -32,15 +31,6 @@ _FARTHEST = 0.05
 _ROUGHLY = 0.25
 # first step of the homotopy, as a share of the residual at the stated position
 _FIRST_PART = 0.1
-
-
-class ChainMotion(NamedTuple):
-    """Points, frames of links, distances of sliders, and how well the chain closes."""
-
-    points: dict[str, PointMotion]
-    links: dict[str, LinkMotion]
-    sliders: dict[str, Transfer]
-    closure: Closure | None
 
 
 class _Solution(NamedTuple):
@@ -142,7 +132,7 @@ class ChainPath:
         solution = self._solved(grid, self._boundary_at(grid))
         return np.concatenate([solution.q, solution.q_1, solution.q_2], axis=1).T
 
-    def motion(self, grid: CrankGrid) -> ChainMotion:
+    def motion(self, grid: CrankGrid) -> GroupMotion:
         """Return points, frames and distances at crank angles."""
         boundary = self._boundary_at(grid)
         solution, positions = self._solved(grid, boundary), np.arange(len(grid))
@@ -302,7 +292,7 @@ def _derivatives(equations: LoopClosure, q: Array, boundary: ChainBoundary, posi
 
 def _as_motion(
     equations: LoopClosure, solution: _Solution, determinant: float, boundary: ChainBoundary, positions: Positions
-) -> ChainMotion:
+) -> GroupMotion:
     """Return points, frames and distances from the coordinates of the links."""
     chain, frames = equations.chain, equations.frames(*solution[:3])
     points = {
@@ -316,7 +306,7 @@ def _as_motion(
         line = equations.line(slide, frames, boundary, positions)
         sliders[slide.link] = in_link_frame(line, frames[slide.link].origin).x
     ratio = solution.determinant / determinant
-    return ChainMotion(points, frames, sliders, Closure(np.where(ratio > 0, ratio * ratio, np.nan), 1.0, ratio))
+    return GroupMotion(points, frames, sliders, Closure(np.where(ratio > 0, ratio * ratio, np.nan), 1.0, ratio))
 
 
 def as_chain(

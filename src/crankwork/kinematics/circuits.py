@@ -142,9 +142,9 @@ class Circuit:
         ends = [0.0, *map(float, dead), self.curve.length]
         return [CircuitPart(*pair) for pair in pairwise(ends)]
 
-    def branch_at(self, driver: Coordinate, arc: float | None = None) -> CircuitPart:
-        """Return the branch at an arc, by default at the stated position."""
-        arc = self.curve.stated if arc is None else arc
+    def branch_at(self, driver: Coordinate) -> CircuitPart:
+        """Return the branch at the stated position."""
+        arc = self.curve.stated
         for part in self.branches(driver):
             for shift in (0.0, -self.curve.length):
                 shifted = CircuitPart(part.start + shift, part.end + shift)

@@ -308,12 +308,15 @@ class DrivenAngle(NamedTuple):
     rate_1: Value  # Second rate of both links
 
 
-class RRRMotion(NamedTuple):
-    """The inner joint of an RRR dyad, and the frames of its links."""
+class GroupMotion(NamedTuple):
+    """Points, frames of links and distances of sliders that a group places, and how well it closes.
 
-    point: PointMotion
-    link_a: LinkMotion
-    link_b: LinkMotion
+    A link between two joints has its line from the known joint to the other one as a frame.
+    """
+
+    points: dict[str, PointMotion]
+    links: dict[str, LinkMotion]
+    sliders: dict[str, Transfer]
     closure: Closure | None
 
 
@@ -327,7 +330,7 @@ def rrr_motion(
     lengths: Mapping[str, Transfer] = _CONSTANT,
     through: Through = unchanged,
     opened: DrivenAngle | None = None,
-) -> RRRMotion:
+) -> GroupMotion:
     """Return the motion of the joint and the links of an RRR dyad (artobolevsky_1988, ch. 4).
 
     Joint [m], frames of the links, closure; NaN where the links do not meet. `through` replaces quantities that are 0/0
@@ -387,7 +390,8 @@ def rrr_motion(
     link_a = LinkMotion(a, cos_a, sin_a, rate_a, rate_a_1)
     link_b = LinkMotion(b, cos_b, sin_b, rate_b, rate_b_1)
     point = point_of_link(link_a, ux, uy) if changing[0] is None else point_of_link(link_b, vx, vy)
-    return RRRMotion(point, link_a, link_b, _rrr_closure(p, q, square, is_opened=opened is not None))
+    closure = _rrr_closure(p, q, square, is_opened=opened is not None)
+    return GroupMotion({name: point}, {dyad.link_a: link_a, dyad.link_b: link_b}, {}, closure)
 
 
 def stretch_of(length: Transfer, rate: Value, cos: Value, sin: Value, name: str) -> tuple[Value, Value]:
@@ -411,23 +415,13 @@ def _rrr_closure(p: Value, q: Value, square: Value, *, is_opened: bool) -> Closu
     return Closure(((p + q) ** 2 - square) * (square - (p - q) ** 2), _largest((2 * p * q) ** 2), square)
 
 
-class RRPMotion(NamedTuple):
-    """The slider point of an RRP dyad, its distance along the guide, and the frames of link and sliding piece."""
-
-    point: PointMotion
-    slide: Transfer
-    link: LinkMotion
-    piece: LinkMotion
-    closure: Closure | None
-
-
 def rrp_motion(
     dyad: RRP,
     joint: PointMotion,
     guide: LinkMotion,
     lengths: Mapping[str, Transfer] = _CONSTANT,
     through: Through = unchanged,
-) -> RRPMotion:
+) -> GroupMotion:
     """Return the motion of the slider and the link of an RRP dyad (artobolevsky_1988, ch. 4).
 
     Slider point, distance along the guide [m], frames, closure; NaN where the link does not reach the guide.
@@ -457,7 +451,8 @@ def rrp_motion(
     point = point_on_guide(guide, slide)
     link = LinkMotion(joint, cos, sin, rate, rate_1)
     closure = None if is_traced(u) else Closure((length - u) * (length + u), _largest(length**2), u)
-    return RRPMotion(point, slide, link, guide._replace(origin=point), closure)
+    links = {link_: link, piece: guide._replace(origin=point)}
+    return GroupMotion({dyad.slider: point}, links, {piece: slide}, closure)
 
 
 def named_coordinates(seen: PointMotion, name: str) -> PointMotion:

@@ -15,11 +15,12 @@ from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import Component, Root, TracedValue, absent, given, is_traced, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.assembly import assembly_error, first_failure, singular_between
-from crankwork.kinematics.chain_solver import ChainMotion, ChainPath
+from crankwork.kinematics.chain_solver import ChainPath
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import (
     Closure,
     DrivenAngle,
+    GroupMotion,
     LinkMotion,
     Through,
     branch_sign,
@@ -202,55 +203,41 @@ def _place_link_points(mechanism: Mechanism, placed: Placed, links: set[str]) ->
 
 def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | None:
     """Add the points, links and sliders of one group."""
-    points, links, sliders = placed.points, placed.links, placed.sliders
-    group = mechanism.dyads[index]
+    points, links, group = placed.points, placed.links, mechanism.dyads[index]
     through: Through = unchanged
     if index in mechanism.passages and not isinstance(group, Chain | PRP | RPP):
         passage = mechanism.passages[index]
         group = replace(group, branch=branch_sign(passage, group.branch, placed.grid))
         through = change_point_replacement(passage, placed.grid)
+    # the joints between which links have their lines
+    ends: dict[str, tuple[str, str]] = {}
     match group:
         case RRR() as dyad:
-            joints, driver, opened = (points[dyad.joint_a], points[dyad.joint_b]), mechanism.driver, None
+            driver, opened = mechanism.driver, None
             if isinstance(driver, LinkMotor) and {dyad.link_a, dyad.link_b} == {*driver.links}:
                 opened = opened_pair(driver, dyad, links[driver.link], placed.lengths[driver.link])
-            rrr = rrr_motion(dyad, *joints, placed.lengths, through, opened)
-            points[dyad.point] = named_point(rrr.point, dyad.point)
-            for link, line, joint in ((dyad.link_a, rrr.link_a, dyad.joint_a), (dyad.link_b, rrr.link_b, dyad.joint_b)):
-                links[link] = placed.frame(mechanism.bars.get(link), link, line, (joint, dyad.point))
-            return rrr.closure
+            solved = rrr_motion(dyad, points[dyad.joint_a], points[dyad.joint_b], placed.lengths, through, opened)
+            ends = {dyad.link_a: (dyad.joint_a, dyad.point), dyad.link_b: (dyad.joint_b, dyad.point)}
         case RRP() as dyad:
-            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece), placed.lengths, through)
-            points[dyad.slider], sliders[dyad.piece] = named_point(rrp.point, dyad.slider), rrp.slide
-            ends = dyad.joint, dyad.slider
-            links[dyad.link] = placed.frame(mechanism.bars.get(dyad.link), dyad.link, rrp.link, ends)
-            links[dyad.piece] = rrp.piece
-            return rrp.closure
+            solved = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece), placed.lengths, through)
+            ends = {dyad.link: (dyad.joint, dyad.slider)}
         case RPR() as dyad:
-            rpr = rpr_motion(dyad, points[dyad.joint], points[dyad.pivot], through)
-            links[dyad.link], links[dyad.block], sliders[dyad.block] = rpr.link, rpr.block, rpr.slide
-            return rpr.closure
+            solved = rpr_motion(dyad, points[dyad.joint], points[dyad.pivot], through)
         case PRP() as dyad:
-            prp = prp_motion(dyad, placed.guide(dyad.guide_a, dyad.block_a), placed.guide(dyad.guide_b, dyad.block_b))
-            points[dyad.point], links[dyad.block_a], links[dyad.block_b] = prp.point, prp.block_a, prp.block_b
-            sliders[dyad.block_a], sliders[dyad.block_b] = prp.slide_a, prp.slide_b
-            return prp.closure
+            a, b = placed.guide(dyad.guide_a, dyad.block_a), placed.guide(dyad.guide_b, dyad.block_b)
+            solved = prp_motion(dyad, a, b)
         case RPP() as dyad:
-            rpp = rpp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.link))
-            links[dyad.link], links[dyad.block] = rpp.link, rpp.block
-            sliders[dyad.link], sliders[dyad.block] = rpp.slide, rpp.block_slide
-            return rpp.closure
+            solved = rpp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.link))
+        case chain if placed.plain is None:
+            solved = ChainRoot(mechanism, index, placed.paths).path(placed.grid).motion(placed.grid)
         case chain:
-            if placed.plain is None:
-                root = ChainRoot(mechanism, index, placed.paths)
-                solved = root.path(placed.grid).motion(placed.grid)
-            else:
-                follows: Any = () if placed.plain.driver.law is None else (placed.grid.angle,)
-                solved = traced_chain(chain, placed, Root(ChainRoot(placed.plain, index), follows))
-            points.update(solved.points)
-            links.update(solved.links)
-            sliders.update(solved.sliders)
-            return solved.closure
+            follows: Any = () if placed.plain.driver.law is None else (placed.grid.angle,)
+            solved = traced_chain(chain, placed, Root(ChainRoot(placed.plain, index), follows))
+    points.update({name: named_point(point, name) for name, point in solved.points.items()})
+    for link, line in solved.links.items():
+        links[link] = placed.frame(mechanism.bars.get(link), link, line, ends[link]) if link in ends else line
+    placed.sliders.update(solved.sliders)
+    return solved.closure
 
 
 class ChainRoot:
@@ -305,15 +292,11 @@ def assembled(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath]
         if bad is not None or between:
             # the first failure from the start of the driver
             lost = [*positions[bad if bad is not None else []].tolist(), *between]
-            raise _unreached(mechanism.driver, group, min(lost, key=lambda position: abs(position - law.start)))
+            nearest = min(lost, key=lambda position: abs(position - law.start))
+            turns, links = mechanism.driver.turns, ", ".join(group_links(group))
+            size = math.degrees(nearest) if turns else nearest * 1e3
+            raise GeometryError(ErrorMessage("law_unreached_angle" if turns else "law_unreached", links=links, at=size))
     return place_at(mechanism, coordinates(mechanism.driver, grid), paths=paths)
-
-
-def _unreached(driver: Driver, group: Dyad | Chain, coordinate: float) -> GeometryError:
-    name, size = (
-        ("law_unreached_angle", math.degrees(coordinate)) if driver.turns else ("law_unreached", coordinate * 1e3)
-    )
-    return GeometryError(ErrorMessage(name, links=", ".join(group_links(group)), at=size))
 
 
 def _assembled_at(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath] | None) -> Placed:
@@ -427,7 +410,7 @@ def geared_motion(geared: GearedCrank, crank: Crank, grid: CrankGrid) -> LinkMot
     return LinkMotion(fixed_point(geared.pivot), cos, sin, np.full_like(cos, rate), np.zeros_like(cos))
 
 
-def traced_chain(chain: Chain, boundary: ChainBoundary, root: Root) -> ChainMotion:
+def traced_chain(chain: Chain, boundary: ChainBoundary, root: Root) -> GroupMotion:
     """Return the traced motion of a chain of links, with points, frames and distances by the formulas of any link.
 
     `root`: gives the coordinates of all links and their derivatives; its residuals are set here.
@@ -471,7 +454,7 @@ def traced_chain(chain: Chain, boundary: ChainBoundary, root: Root) -> ChainMoti
     )
     sliders = {link: in_link_frame(line, frames[link].origin).x for link, line in lines.items()}
     own = {name: point for name, point in points.items() if name not in chain.known}
-    return ChainMotion(own, frames, sliders, None)
+    return GroupMotion(own, frames, sliders, None)
 
 
 def _path(chain: Chain, link: ChainLink, name: str) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
@@ -11,6 +9,7 @@ from crankwork.formula.traced_value import absent, is_traced, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.dyads import (
     Closure,
+    GroupMotion,
     LinkMotion,
     Through,
     in_link_frame,
@@ -87,16 +86,7 @@ def crossing(dx: Value, sin_th: Value, dy: Value, cos_th: Value, sin_gg: Value) 
     return (dx * sin_th - dy * cos_th) / sin_gg
 
 
-class RPRMotion(NamedTuple):
-    """The distance of the block along the slot, and the frames of lever and block."""
-
-    slide: Transfer
-    link: LinkMotion
-    block: LinkMotion
-    closure: Closure | None
-
-
-def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Through = unchanged) -> RPRMotion:
+def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Through = unchanged) -> GroupMotion:
     """Return the motion of a slotted lever and its block (artobolevsky_1988, ch. 4).
 
     Distance along the slot [m], frames, closure; NaN where the pin is nearer to the pivot than the slot. `joint` and
@@ -131,7 +121,8 @@ def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Throu
         None if is_traced(square) else Closure(square - e * e, float(np.fmax.reduce(square.real, initial=0.0)), square)
     )
     place = s if is_zero(along) else s - along
-    return RPRMotion(named_slide(Transfer(place, s_1, s_2), block_), link, block, closure)
+    sliders = {block_: named_slide(Transfer(place, s_1, s_2), block_)}
+    return GroupMotion({}, {name: link, block_: block}, sliders, closure)
 
 
 def _in_slot_axes(slot: Guide) -> tuple[Value, Value]:
@@ -146,18 +137,7 @@ def _in_slot_axes(slot: Guide) -> tuple[Value, Value]:
     return named(along, "guide_along.slot"), named(across, "slot_offset")
 
 
-class PRPMotion(NamedTuple):
-    """The pin of two blocks, their distances along the guides, and their frames."""
-
-    point: PointMotion
-    slide_a: Transfer
-    slide_b: Transfer
-    block_a: LinkMotion
-    block_b: LinkMotion
-    closure: Closure | None
-
-
-def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
+def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> GroupMotion:
     """Return the motion of two blocks on one pin where two guides cross (artobolevsky_1988, ch. 4).
 
     Pin, distances along the guides [m], frames, closure: the square of the sine of the angle between the guides.
@@ -193,9 +173,9 @@ def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
     s_a_2, s_b_2 = solved("_2", *(_column(position, 2) for position in carried))
     slide_a, slide_b = Transfer(s_a, s_a_1, s_a_2), Transfer(s_b, s_b_1, s_b_2)
     point = point_on_guide(a, slide_a)
-    blocks = a._replace(origin=point), b._replace(origin=point)
+    links = {dyad.block_a: a._replace(origin=point), dyad.block_b: b._replace(origin=point)}
     closure = None if is_traced(sine) else Closure(sine * sine, 1.0, sine)
-    return PRPMotion(point, slide_a, slide_b, *blocks, closure)
+    return GroupMotion({dyad.point: point}, links, {dyad.block_a: slide_a, dyad.block_b: slide_b}, closure)
 
 
 def _column(point: PointMotion, order: int) -> tuple[Value, Value]:
@@ -203,17 +183,7 @@ def _column(point: PointMotion, order: int) -> tuple[Value, Value]:
     return point.x[order], point.y[order]
 
 
-class RPPMotion(NamedTuple):
-    """The distances of yoke and block along guide and slot, and their frames."""
-
-    slide: Transfer
-    block_slide: Transfer
-    link: LinkMotion
-    block: LinkMotion
-    closure: Closure | None
-
-
-def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
+def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> GroupMotion:
     """Return the motion of a yoke along its guide and of the block in its slot (artobolevsky_1988, ch. 4).
 
     Distances along guide and slot [m], frames, closure: the square of the sine of the angle between guide and slot.
@@ -235,4 +205,5 @@ def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
     link = guide._replace(origin=named_point(point_on_guide(guide, slide), dyad.link))
     block = rotated_frame(guide, gamma, dyad.block)._replace(origin=joint)
     closure = None if is_traced(gamma) else Closure(np.full_like(slide[0], sin * sin), 1.0, slide[0])
-    return RPPMotion(slide, block_slide, link, block, closure)
+    sliders = {dyad.link: slide, dyad.block: block_slide}
+    return GroupMotion({}, {dyad.link: link, dyad.block: block}, sliders, closure)

@@ -122,7 +122,8 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
         carrier = "" if linkage.driver.link in group else _only_carrier(linkage, group, bodies)
         stuck = next((name for name in group if carrier and linkage.member(name).guide), None)
         if stuck is not None:
-            return None, [Problem(_key(linkage, stuck), _too_still(stuck, group, carrier))]
+            message = ErrorMessage("still_slider", slider=stuck, names=list(group), bearer=carrier)
+            return None, [Problem(_key(linkage, stuck), message)]
         bodies |= {name: carrier or name for name in group}
         groups.append(AssurGroup(group, _class(linkage, group, solved)))
         solved |= set(group)
@@ -256,10 +257,6 @@ def _too_stiff(linkage: Linkage, group: tuple[str, ...], solved: Iterable[str]) 
 def _described(linkage: Linkage, members: Iterable[str]) -> list[str]:
     """Return the members without a link whose length drives."""
     return [name for name in members if name != linkage.driver.link]
-
-
-def _too_still(slider: str, group: tuple[str, ...], carrier: str) -> ErrorMessage:
-    return ErrorMessage("still_slider", slider=slider, names=list(group), bearer=carrier)
 
 
 def _key(linkage: Linkage, name: str) -> str:

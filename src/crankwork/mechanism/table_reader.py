@@ -1,4 +1,7 @@
-"""Linkages described in tables, with every mistake in them at once."""
+"""Linkages described in tables, with every mistake in what they say together at once.
+
+The tables come from `description`, which has checked keys and types.
+"""
 
 from __future__ import annotations
 
@@ -18,19 +21,10 @@ from crankwork.mechanism.structure import structure
 
 Table = Mapping[str, Any]
 
-_TABLES = ("fixed_points", "crank", "geared", "driver", "links", "guides", "sliders", "branch", "positions")
 _MASS = ("mass", "inertia", "centre")
-_TURNING = (*_MASS, "inertia_about")
-_CRANK = ("pivot", "pin", "radius", "start", "direction", "points", *_TURNING)
-_LINK = ("joins", "length", "points", *_MASS)
-_SLIDER = ("guide", "pin", "points", *_MASS)
-_GUIDE = ("through", "angle", "link")
 _DRIVERS = ("slider", "cylinder", "between")
 _HALVES = ("barrel", "rod")
-_DRIVER = (*_DRIVERS, *_HALVES, "law")
 _SAME = 1e-12
-_GEARED = ("pivot", "ratio", "start", "points", "pressure_angle", *_TURNING)
-_DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 
 
 def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:
@@ -49,21 +43,16 @@ class _Reader:
 
     def linkage(self) -> Linkage:
         """Return the linkage, which is valid only without problems."""
-        self._known_keys("", self.tables, _TABLES)
         ground, positions = (
-            {name: self._point(f"{key}.{name}", point) for name, point in self._table(key).items()}
+            {name: (point[0], point[1]) for name, point in self._table(key).items()}
             for key in ("fixed_points", "positions")
         )
-        guides = {name: self._guide(name, guide, ground) for name, guide in self._named("guides", _GUIDE)}
+        guides = {name: self._guide(name, guide, ground) for name, guide in self._table("guides").items()}
         law: Any = self._table("driver").get("law")
-        if "driver" in self.tables and law is None:
-            self._problem("driver.law", ErrorMessage("law_missing"))
-            law = Law((), 1.0, 1.0)
         named = [name for name in _DRIVERS if name in self._table("driver")]
         sliders = tuple(self._sliders())
         driver: Driver
         if named:
-            self._known_keys("driver", self._table("driver"), _DRIVER)
             if len(named) > 1 or "crank" in self.tables:
                 further = ", ".join([*named[1:], *(["crank"] if "crank" in self.tables else [])])
                 self._problem(f"driver.{named[0]}", ErrorMessage("drivers_many", one=named[0], others=further))
@@ -91,56 +80,12 @@ class _Reader:
         self.problems.append(Problem(key, message))
 
     def _table(self, key: str) -> Table:
-        table = self.tables.get(key, {})
-        if isinstance(table, Mapping):
-            return table
-        if key == "crank" and isinstance(table, list):
-            self._problem(key, ErrorMessage("cranks_many", count=len(table)))
-        else:
-            self._problem(key, ErrorMessage("be_table", key=key))
-        return {}
+        return self.tables.get(key, {})  # type: ignore[no-any-return]
 
-    def _known_keys(self, key: str, table: Table, known: tuple[str, ...]) -> None:
-        for name in table:
-            if name not in known:
-                self._problem(f"{key}.{name}".lstrip("."), ErrorMessage("key_unknown", known=", ".join(known)))
-
-    def _named(self, key: str, known: tuple[str, ...]) -> Iterator[tuple[str, Table]]:
-        """Yield the tables below a table."""
-        for name, table in self._table(key).items():
-            if isinstance(table, Mapping):
-                self._known_keys(f"{key}.{name}", table, known)
-                yield name, table
-            else:
-                self._problem(f"{key}.{name}", ErrorMessage("be_table", key=f"{key}.{name}"))
-
-    def _number(self, key: str, value: object, *, positive: bool = False) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            self._problem(key, ErrorMessage("number_needed" if value is not None else "number_missing"))
-        elif positive and not value > 0:
-            self._problem(key, ErrorMessage("length_zero", value=value))
-        else:
-            return float(value)
-        return 1.0
-
-    def _point(self, key: str, value: object) -> Point:
-        if isinstance(value, list | tuple) and len(value) == 2:
-            return self._number(key, value[0]), self._number(key, value[1])
-        self._problem(key, ErrorMessage("pair_missing" if value is None else "pair_needed"))
-        return 0.0, 0.0
-
-    def _word(self, key: str, value: object) -> str:
-        if isinstance(value, str) and value:
-            return value
-        self._problem(key, ErrorMessage("name_missing" if value is None else "name_needed"))
-        return ""
-
-    def _points(self, key: str, table: Table) -> dict[str, Point]:
-        points = table.get("points", {})
-        if isinstance(points, Mapping):
-            return {name: self._point(f"{key}.points.{name}", point) for name, point in points.items()}
-        self._problem(f"{key}.points", ErrorMessage("be_coordinates"))
-        return {}
+    def _word(self, key: str, value: str) -> str:
+        if not value:
+            self._problem(key, ErrorMessage("name_needed"))
+        return value
 
     def _driving_slider(
         self, sliders: tuple[Member, ...], guides: Mapping[str, Guide], law: Law
@@ -150,10 +95,10 @@ class _Reader:
         no_driver = DrivingSlider("", Guide(), law), Member("", {})
         if name is None:
             return no_driver
-        slider = next((candidate for candidate in sliders if candidate.name == self._word("driver.slider", name)), None)
+        slider = next((candidate for candidate in sliders if candidate.name == name), None)
         if slider is None:
             known = ", ".join(candidate.name for candidate in sliders)
-            self._problem("driver.slider", ErrorMessage("absent_slider", name=str(name)[:40], known=known))
+            self._problem("driver.slider", ErrorMessage("absent_slider", name=name[:40], known=known))
             return no_driver
         guide = guides.get(slider.guide, Guide())
         if guide.link:
@@ -165,9 +110,6 @@ class _Reader:
     def _two(self, key: str, known: Mapping[str, object] | set[str], refusal: str) -> tuple[str, str] | None:
         """Return two different, known names."""
         names = self._table("driver")[key]
-        if not isinstance(names, list | tuple) or len(names) != 2 or not all(isinstance(item, str) for item in names):
-            self._problem(f"driver.{key}", ErrorMessage("driver_two"))
-            return None
         for name in names:
             if name not in known:
                 self._problem(f"driver.{key}", ErrorMessage(refusal, name=name[:40], known=", ".join(sorted(known))))
@@ -194,12 +136,10 @@ class _Reader:
 
     def _half(self, name: str, link: str) -> CylinderPart:
         """Return the barrel or the rod of a cylinder, massless by default."""
-        table, key = self._table("driver").get(name), f"driver.{name}"
+        table = self._table("driver").get(name)
         if table is None:
             return CylinderPart(link, 0.0, 0.0, (0.0, 0.0))
-        mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
-        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
-        return CylinderPart(link, mass, inertia, self._point(f"{key}.centre", table.get("centre")))
+        return CylinderPart(link, table["mass"], table.get("inertia", 0.0), tuple(table["centre"]))
 
     def _with_motor(self, linkage: Linkage, law: Law) -> Linkage:
         """Return a linkage with the third side of the triangle of a motor between two links."""
@@ -239,42 +179,37 @@ class _Reader:
 
     def _crank(self, ground: Mapping[str, Point], law: Law | None) -> tuple[Crank, Member]:
         table = self._table("crank")
-        self._known_keys("crank", table, _CRANK)
-        pivot, pin = self._word("crank.pivot", table.get("pivot")), self._word("crank.pin", table.get("pin"))
+        pivot, pin = self._word("crank.pivot", table["pivot"]), self._word("crank.pin", table["pin"])
         if pivot and pivot not in ground:
             self._problem("crank.pivot", ErrorMessage("pivot_unknown", name=pivot))
         if pin in ground:
             self._problem("crank.pin", ErrorMessage("pin_fixed", name=pin))
-        direction = table.get("direction", "anticlockwise")
-        if direction not in _DIRECTIONS:
-            self._problem("crank.direction", ErrorMessage("direction_wrong", value=str(direction)[:40]))
-        radius = self._number("crank.radius", table.get("radius"), positive=True)
-        start = self._number("crank.start", table.get("start", 0.0))
-        sense = _DIRECTIONS.get(str(direction), 1)
+        radius, start = float(table["radius"]), float(table.get("start", 0.0))
+        sense: Branch = -1 if table.get("direction") == "clockwise" else 1
         pivoted = ground.get(pivot, (0.0, 0.0))
         crank = Crank(radius, pivoted, start, sense, pin, law=law)
-        points = self._points("crank", table)
+        points = _points(table)
         places = {pivot: (0.0, 0.0), pin: (radius, 0.0), **points}
         return crank, self._turning("crank", Member(crank.link, points), table, places)
 
     def _geared(self, ground: Mapping[str, Point]) -> tuple[tuple[GearedCrank, ...], tuple[Member, ...]]:
         """Return the geared cranks, also as members."""
         cranks, members = [], []
-        for name, table in self._named("geared", _GEARED):
+        for name, table in self._table("geared").items():
             key = f"geared.{name}"
-            pivot = self._word(f"{key}.pivot", table.get("pivot"))
+            pivot, ratio, angle = (
+                self._word(f"{key}.pivot", table["pivot"]),
+                table["ratio"],
+                table.get("pressure_angle"),
+            )
             if pivot and pivot not in ground:
                 self._problem(f"{key}.pivot", ErrorMessage("pivot_unknown", name=pivot))
-            ratio, start = (self._number(f"{key}.{item}", table.get(item, 0.0)) for item in ("ratio", "start"))
             if not ratio:
                 self._problem(f"{key}.ratio", ErrorMessage("ratio_zero"))
-            angle = (
-                self._number(f"{key}.pressure_angle", table["pressure_angle"]) if "pressure_angle" in table else None
-            )
             if angle is not None and (ratio == 1 or pivot == self._table("crank").get("pivot")):
                 self._problem(f"{key}.pressure_angle", ErrorMessage("wheels_apart"))
-            crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, start, angle)
-            points = self._points(key, table)
+            crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, table.get("start", 0.0), angle)
+            points = _points(table)
             if not points:
                 self._problem(f"{key}.points", ErrorMessage("geared_points"))
             cranks.append(crank)
@@ -288,13 +223,13 @@ class _Reader:
         """
         if not any(name in table for name in _MASS):
             return member
-        mass = self._number(f"{key}.mass", table.get("mass", 0.0))
-        inertia = self._inertia(key, table)
+        mass = table.get("mass", 0.0)
+        inertia = self._inertia(table)
         centre = table.get("centre", next(iter(places)))
         points, places = dict(member.points), dict(places)
         if not isinstance(centre, str):
             name = f"{member.name}.centre"
-            points[name] = places[name] = self._point(f"{key}.centre", centre)
+            points[name] = places[name] = centre[0], centre[1]
             centre = name
         elif centre not in places:
             known = ", ".join(places)
@@ -313,15 +248,12 @@ class _Reader:
         return _replaced(member, points, mass, own, centre)
 
     def _links(self, drawn: Mapping[str, Point]) -> Iterator[Member]:
-        for name, table in self._named("links", _LINK):
-            key, joins = f"links.{name}", table.get("joins")
-            if not isinstance(joins, list | tuple) or len(joins) < 2 or not all(isinstance(end, str) for end in joins):
-                self._problem(f"{key}.joins", ErrorMessage("joins_two"))
-                continue
+        for name, table in self._table("links").items():
+            key, joins = f"links.{name}", table["joins"]
             if len(set(joins)) < len(joins):
                 self._problem(f"{key}.joins", ErrorMessage("joins_twice", names=", ".join(joins)[:80]))
                 continue
-            points = self._points(key, table)
+            points = _points(table)
             for point in {*points, ""}.intersection(joins[:2]):
                 self._problem(f"{key}.points.{point}", ErrorMessage("point_of_joint", name=point))
             places = self._joint_places(key, table, list(joins), points, drawn)
@@ -333,7 +265,7 @@ class _Reader:
         """Return the joints of a link in its frame, from its length or their drawn positions."""
         first, second, *further = joins
         if "length" in table:
-            length = self._number(f"{key}.length", table["length"], positive=True)
+            length = float(table["length"])
         elif first in drawn and second in drawn:
             length = math.dist(drawn[first], drawn[second])
             if length == 0:
@@ -355,10 +287,10 @@ class _Reader:
         return places
 
     def _sliders(self) -> Iterator[Member]:
-        for name, table in self._named("sliders", _SLIDER):
+        for name, table in self._table("sliders").items():
             key = f"sliders.{name}"
-            guide = self._word(f"{key}.guide", table.get("guide"))
-            points = self._points(key, table)
+            guide = self._word(f"{key}.guide", table["guide"])
+            points = _points(table)
             if "pin" in table:
                 points = {self._word(f"{key}.pin", table["pin"]): (0.0, 0.0), **points}
             yield self._with_mass(key, table, Member(name, points, guide))
@@ -366,14 +298,15 @@ class _Reader:
     def _with_mass(self, key: str, table: Table, member: Member) -> Member:
         if not any(name in table for name in _MASS):
             return member
-        mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
-        inertia = self._inertia(key, table)
+        if "mass" not in table:
+            self._problem(f"{key}.mass", ErrorMessage("number_missing"))
+        mass, inertia = table.get("mass", 1.0), self._inertia(table)
         centre = table.get("centre", next(iter(member.points), "") if member.guide else None)
         if not isinstance(centre, str):
-            name = f"{member.name}.centre"
-            member = _replaced(
-                member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name
-            )
+            name, place = f"{member.name}.centre", (0.0, 0.0) if centre is None else (centre[0], centre[1])
+            if centre is None:
+                self._problem(f"{key}.centre", ErrorMessage("pair_missing"))
+            member = _replaced(member, {**member.points, name: place}, mass, inertia, name)
             return self._of_length(key, table, member, member.points)
         if centre not in member.points:
             message = ErrorMessage(
@@ -384,10 +317,11 @@ class _Reader:
             return member
         return self._of_length(key, table, _replaced(member, member.points, mass, inertia, centre), member.points)
 
-    def _inertia(self, key: str, table: Table) -> float:
+    @staticmethod
+    def _inertia(table: Table) -> float:
         """Return a moment of inertia that is stated as a number; zero for one that follows from a length. [kg m2]"""
         stated = table.get("inertia", 0.0)
-        return 0.0 if isinstance(stated, LengthInertia) else self._number(f"{key}.inertia", stated)
+        return 0.0 if isinstance(stated, LengthInertia) else float(stated)
 
     def _of_length(self, key: str, table: Table, member: Member, places: Mapping[str, Point]) -> Member:
         """Return a body with the moment of inertia that follows from the distance of its first two places."""
@@ -408,22 +342,16 @@ class _Reader:
         if link and isinstance(links, dict) and [through] == list(links.get(link, {}).get("joins", ()))[:1]:
             through = [0.0, 0.0]  # Where the frame of the link begins
         if not isinstance(through, str):
-            point = self._point(f"{key}.through", through)
+            point = through[0], through[1]
         elif through in ground and not link:
             point = ground[through]
         else:
             self._problem(f"{key}.through", ErrorMessage("through_unknown", name=through))
             point = (0.0, 0.0)
-        return Guide(point, self._number(f"{key}.angle", table.get("angle", 0.0)), link)
+        return Guide(point, table.get("angle", 0.0), link)
 
     def _branches(self) -> dict[str, Branch]:
-        branches: dict[str, Branch] = {}
-        for name, value in self._table("branch").items():
-            if isinstance(value, bool) or value not in (1, -1):
-                self._problem(f"branch.{name}", ErrorMessage("branch_wrong", value=str(value)[:40]))
-            else:
-                branches[name] = 1 if value == 1 else -1
-        return branches
+        return {name: 1 if value == 1 else -1 for name, value in self._table("branch").items()}
 
     def _names(self, linkage: Linkage) -> None:
         """Report names that are used twice or unknown."""
@@ -450,3 +378,7 @@ class _Reader:
 def _replaced(member: Member, points: Mapping[str, Point], mass: float, inertia: float, centre: str) -> Member:
     values = {entry.name: getattr(member, entry.name) for entry in fields(member)}
     return Member(**{**values, "points": points, "mass": mass, "inertia": inertia, "centre": centre})
+
+
+def _points(table: Table) -> dict[str, Point]:
+    return {name: (point[0], point[1]) for name, point in table.get("points", {}).items()}

@@ -9,8 +9,17 @@ from typing import NamedTuple
 
 from crankwork.analysis.results import Results
 from crankwork.description.document import Origin
-from crankwork.formula.calculation_lines import FormulaLine, Line, SumLine, ValueLine, without_noise
-from crankwork.formula.explanation import ExplainedValue, Explanation, has_argument_symbol, is_given
+from crankwork.formula.calculation_lines import (
+    ExplainedValue,
+    Explanation,
+    FormulaLine,
+    Line,
+    SumLine,
+    ValueLine,
+    has_argument_symbol,
+    is_given,
+    without_noise,
+)
 from crankwork.formula.expression import symbol
 from crankwork.formula.traced_value import (
     AngleFunction,

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from crankwork.analysis import Array, Results
 from crankwork.browser import script, style
 from crankwork.errors import InputError
-from crankwork.formula.calculation_lines import FormulaLine, ValueLine
-from crankwork.formula.explanation import Explanation, has_argument_symbol
+from crankwork.formula.calculation_lines import Explanation, FormulaLine, ValueLine, has_argument_symbol
 from crankwork.formula.expression import symbol
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import (

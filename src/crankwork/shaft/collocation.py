@@ -62,20 +62,6 @@ class Panels:
         return np.asarray(self.values[panel] + h * np.sum(legendre.legvander(place, POINTS) * series, axis=-1))
 
 
-def panel_points(edges: Array) -> Array:
-    """Return the Gauss points of panels, shape (n, 8)."""
-    return edges[:-1, None] + np.diff(edges)[:, None] * NODES
-
-
-def tails(values: Array) -> Array:
-    """Return, for each panel, how large the last two Legendre coefficients of a function are, shape (n,).
-
-    `values`: the function at the Gauss points [its unit], shape (n, 8).
-    """
-    series = np.abs(values @ _TO_SERIES.T)
-    return np.asarray(series[:, -1] + series[:, -2])
-
-
 def integrate_periodic(rate: Rate, edges: Array, guess: Array) -> Panels:
     """Return the solution whose last value is its first (hairer_wanner_1996, sec. IV.5, Gauss methods).
 
@@ -88,7 +74,8 @@ def integrate_periodic(rate: Rate, edges: Array, guess: Array) -> Panels:
         solved = _newton(rate, edges, values)
         if not solved.converged:
             return solved
-        bad = tails(solved.rate) * np.diff(edges) > TOLERANCE * np.max(np.abs(solved.values))
+        series = np.abs(solved.rate @ _TO_SERIES.T)
+        bad = (series[:, -1] + series[:, -2]) * np.diff(edges) > TOLERANCE * np.max(np.abs(solved.values))
         if not bad.any() or len(edges) > _MOST_PANELS:
             return solved
         edges = np.sort(np.concatenate([edges, (edges[1:] + edges[:-1])[bad] / 2]))
@@ -97,7 +84,8 @@ def integrate_periodic(rate: Rate, edges: Array, guess: Array) -> Panels:
 
 
 def _newton(rate: Rate, edges: Array, values: Array) -> Panels:
-    h, x = np.diff(edges), panel_points(edges)
+    h = np.diff(edges)
+    x = edges[:-1, None] + h[:, None] * NODES
     y = values[:-1, None] + np.diff(values)[:, None] * NODES
     values = values.copy()
     multiplier, last, held = np.nan, np.inf, 0

@@ -219,7 +219,9 @@ class Integrator:
         if step is None:
             self.before = None
             return self._shorter(length)
-        cut = self._first_cut(step)
+        # when the law of the step ends within it, and by what
+        cuts = ((time, what) for what, value in self._limits().items() for time in step.crossings(value)[:1])
+        cut = min(cuts, default=None)
         if cut is not None:
             time, what = cut
             step = self._landed(time - self.time, what)
@@ -273,11 +275,6 @@ class Integrator:
             limits["stop_low"] = lambda q, _: q - stop_low
         limits["turn"] = lambda _, v: v
         return limits
-
-    def _first_cut(self, step: Step) -> tuple[float, str] | None:
-        """Return when the law of a step ends within it, and by what."""
-        cuts = [(time, what) for what, value in self._limits().items() for time in step.crossings(value)[:1]]
-        return min(cuts, default=None)
 
     def _landed(self, length: float, what: str) -> Step | None:
         """Return the step that ends where its law does."""

@@ -64,8 +64,7 @@ class GrinevetskyData:
     air_gas_constant: float = 287.0
     strokes: Literal[4, 2] = 4  # Strokes per cycle
     cylinders: int = 1  # Number of cylinders
-    # Coefficients of p_m = a + b v_p, or their key in `engine_size.MECHANICAL_LOSSES` [Pa, Pa s/m]
-    mechanical_loss: tuple[float, float] | str | None = None
+    mechanical_loss: tuple[float, float] | None = None  # Coefficients of p_m = a + b v_p [Pa, Pa s/m]
     power: float | None = None  # Target of effective power, from which bore and stroke follow [W]
     stroke_bore_ratio: float = 1.0  # Stroke over bore, if they follow from the power [-]
     # Given size [m]
@@ -106,18 +105,12 @@ def with_usual_values(data: GrinevetskyData) -> GrinevetskyData:
     rest: dict[str, object] = {}
     if data.fuel is None:
         rest["fuel"] = FUELS[data.kind]
-    if isinstance(data.mechanical_loss, str | None):
-        rest["mechanical_loss"] = _losses(data.mechanical_loss or data.kind)
+    if data.mechanical_loss is None:
+        rest["mechanical_loss"] = MECHANICAL_LOSSES[data.kind]
     if data.kind == "diesel" and (data.fuel or FUELS["diesel"]).molar_mass:
         # the fuel of a diesel does not evaporate before the cylinder
         rest["fuel"] = (data.fuel or FUELS["diesel"])._replace(molar_mass=None)
     return replace(data, **taken, **rest)  # type: ignore[arg-type]
-
-
-def _losses(key: str) -> tuple[float, float]:
-    if key not in MECHANICAL_LOSSES:
-        raise CycleError(ErrorMessage("losses_unknown", name=key, known=", ".join(MECHANICAL_LOSSES)))
-    return MECHANICAL_LOSSES[key]
 
 
 # fields with another path in a machine file, or another key of quantity
@@ -172,43 +165,20 @@ def traced_cycle_inputs(data: GrinevetskyData, full: GrinevetskyData) -> Calcula
     return worked
 
 
-_ANY_SIGN = {"heating", "cooler_drop"}
+# of any sign, never negative in a file, or no number
+_UNCHECKED = {"heating", "cooler_drop", "lost_stroke", "scavenging", "rounds_size"}
 
 
 def check_data(data: GrinevetskyData) -> None:
     """Raise unless a cycle can follow from the data."""
-    if data.kind not in _USUAL:
-        raise CycleError(ErrorMessage("kind_of_fuel", kind=data.kind))
-    _check_signs(data)
+    for name, value in vars(data).items():
+        if isinstance(value, float | int) and name not in _UNCHECKED and value <= 0:
+            raise CycleError(ErrorMessage("not_above", name=name, value=value, limit=0))
     if data.compression_ratio <= 1:
         raise CycleError(ErrorMessage("not_above", name="compression_ratio", value=data.compression_ratio, limit=1))
     if 1.0 in (data.compression_exponent, data.expansion_exponent):
         raise CycleError(ErrorMessage("exponent_one"))
-    _check_choices(data)
-
-
-def _check_choices(data: GrinevetskyData) -> None:
-    """Raise if data contradict each other."""
     if data.strokes == 4 and data.lost_stroke:
         raise CycleError(ErrorMessage("lost_stroke_of_two"))
     if data.lost_stroke >= 1:
         raise CycleError(ErrorMessage("lost_stroke_whole", value=data.lost_stroke))
-    if data.power and (data.bore or data.stroke):
-        raise CycleError(ErrorMessage("power_or_size"))
-    if (data.bore is None) != (data.stroke is None):
-        raise CycleError(ErrorMessage("bore_and_stroke"))
-
-
-def _check_signs(data: GrinevetskyData) -> None:
-    """Raise unless every given number is positive, or may be zero."""
-    for field in fields(data):
-        value = getattr(data, field.name)
-        if isinstance(value, float | int) and not isinstance(value, bool) and field.name not in _ANY_SIGN:
-            limit = 0.0 if field.name in ("lost_stroke", "scavenging") else None
-            if not (value >= limit if limit is not None else value > 0):
-                values = {"name": field.name, "value": value}
-                raise CycleError(
-                    ErrorMessage("not_above", **values, limit=0)
-                    if limit is None
-                    else ErrorMessage("not_negative", **values)
-                )

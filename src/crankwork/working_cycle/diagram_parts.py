@@ -197,15 +197,12 @@ def traced_pressure_of_parts(
                 laws.append(law)
             continue
         ends.append(part.points[-1].angle)
-        laws.append(part.points[0].pressure if part.law == "constant" else _on_polytrope(part, references, volume))
+        laws.append(
+            part.points[0].pressure
+            if part.law == "constant"
+            else polytropic_pressure(*references[part.reference], volume, part.exponent)
+        )
     return TracedValue(Piecewise([*ends[:-1], cycle], tuple(laws)), "diagram_pressure")
-
-
-def _on_polytrope(
-    part: DiagramPart, references: Mapping[str, tuple[TracedValue, TracedValue]], volume: TracedValue
-) -> TracedValue:
-    law: TracedValue = polytropic_pressure(*references[part.reference], volume, part.exponent)
-    return law
 
 
 def _within(part: DiagramPart, cycle: float) -> list[DiagramPart]:

@@ -132,13 +132,8 @@ def heat_share(Q_part: Value, Q_0: Value) -> Value:
 
 # a [Pa] and b [Pa s/m] of p_m = a + b v_p by kind of engine; kolchin_demidov_2008, ch. 3
 MECHANICAL_LOSSES = {
-    "petrol_long_stroke": (0.049e6, 0.0152e6),
-    "petrol_eight_cylinders": (0.039e6, 0.0132e6),
     "petrol": (0.034e6, 0.0113e6),
-    "petrol_injection": (0.024e6, 0.0053e6),
     "diesel": (0.089e6, 0.0118e6),
-    "diesel_prechamber": (0.103e6, 0.0153e6),
-    "diesel_swirl_chamber": (0.089e6, 0.0135e6),
 }
 
 

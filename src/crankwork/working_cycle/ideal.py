@@ -289,14 +289,8 @@ def _results(worked: Calculation, data: IdealData, last: int) -> None:
 
 def _check(data: IdealData) -> None:
     """Raise unless the data are those of one cycle."""
-    if data.kind not in _HEATINGS:
-        raise CycleError(ErrorMessage("kind_of_cycle", kind=data.kind, known=", ".join(_HEATINGS)))
-    for name in ("pressure", "temperature", "gas_constant"):
-        if not getattr(data, name) > 0:
-            raise CycleError(ErrorMessage("not_above", name=name, value=getattr(data, name), limit=0))
-    for name in ("compression_ratio", "adiabatic_exponent"):
-        if not getattr(data, name) > 1:
-            raise CycleError(ErrorMessage("not_above", name=name, value=getattr(data, name), limit=1))
+    if data.compression_ratio <= 1:
+        raise CycleError(ErrorMessage("not_above", name="compression_ratio", value=data.compression_ratio, limit=1))
     statements = [data.heat, data.peak_temperature, data.cut_off]
     statements += [] if data.kind == "dual" else [data.pressure_ratio]
     if sum(statement is not None for statement in statements) > 1:

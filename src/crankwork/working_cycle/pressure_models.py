@@ -34,11 +34,14 @@ from crankwork.working_cycle.closed_gas import (
     EXPANSION,
     ClosedGas,
     GasSpeedFactors,
+    HeatReleaseData,
+    Stage,
     burning_progress,
     closed_gas,
     gas_heat_ratio,
     gas_temperature,
     pressure_rise,
+    stages,
     volume_when,
     wall_area,
     wall_heat_rate,
@@ -57,7 +60,6 @@ from crankwork.working_cycle.diagram_parts import (
     within_cycle,
 )
 from crankwork.working_cycle.fuels import CycleError
-from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.rounding import (
     Rounding,
     Timing,

@@ -370,8 +370,6 @@ def _check(theory: Mapping[str, Value], timing: Timing) -> None:
     missing = [name for name in ("p_r", "p_a", "p_z", "n1", "n2") if not to_number(theory.get(name, 0.0)) > 0]
     if missing:
         raise CrankworkError(ErrorMessage("theory_missing", names=", ".join(missing)))
-    if timing.cycle not in (360.0, 720.0):
-        raise CrankworkError(ErrorMessage("cycle_angle", angle=timing.cycle))
     if timing.ignition_advance and timing.ignition_delay >= timing.ignition_advance:
         raise CrankworkError(
             ErrorMessage("ignition_late", advance=timing.ignition_advance, delay=timing.ignition_delay)
