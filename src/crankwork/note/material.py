@@ -27,7 +27,7 @@ from crankwork.note.table_width import is_narrow
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area, key_unit, label
-from crankwork.report.figures import drawings
+from crankwork.report.figures import drawings, figure_names
 from crankwork.report.look import figure_title, kind_of
 from crankwork.report.tables import any_nonzero
 from crankwork.show.chart_layout import ChartLayout, use_layout
@@ -246,8 +246,9 @@ class Material:
 
     @cached_property
     def drawn(self) -> Mapping[str, Drawing]:
-        """Figures by name; none if they are left out."""
-        return self._drawings() if self.options.figures else {}
+        """Figures that this note may show, by name; none if they are left out."""
+        names = figure_names(self.results, self.options.language) if self.options.figures else []
+        return self._drawings(only=[name for name in names if self.full or kind_of(name) in self._figures])
 
     @cached_property
     def _small(self) -> Mapping[str, Drawing]:
