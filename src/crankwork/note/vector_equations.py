@@ -105,9 +105,9 @@ def vector_plans(material: Material) -> Iterator[Block]:
         )
         material.leave_out("velocity_plan", "acceleration_plan")
     compared = material.full or material.order != "en"
-    found = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
-    tables = [table for table, _ in found]
-    material.plan_difference = max(difference for _, difference in found) if compared else None
+    compared_plans = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
+    tables = [table for table, _ in compared_plans]
+    material.plan_difference = max(difference for _, difference in compared_plans) if compared else None
     values: dict[str, Run | Runs] = {kind: Reference(table.label) for kind, table in zip(_KINDS, tables, strict=True)}
     mm = unit_name("mm", words.language)
     scale = f"\u00a0=\u00a0{words.number(1e3 * scales.length)}\u00a0{mm}/{mm}"
