@@ -236,6 +236,7 @@ ARGUMENTS: dict[str, Argument] = {
     "l_k": Argument("link_length", "{}₂"),
     "d_sq": Argument("joint_distance_square"),
     "S_sq": Argument("doubled_area"),
+    "s_b": Argument("branch"),
     "k_d": Argument("foot_ratio"),
     "k_n": Argument("height_ratio"),
     "s_g": Argument("guide_along"),

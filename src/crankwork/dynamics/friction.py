@@ -273,15 +273,15 @@ def _efficiency(ideal: Array, actual: Array) -> Array:
 
 
 @formula("friction_radius", "artobolevsky_1988, ch. 11")
-def friction_radius(f_z: Value, r_z: Value) -> Value:
+def friction_radius(f_pin: Value, r_z: Value) -> Value:
     """Radius of the friction circle of a pin."""
-    return f_z * r_z
+    return f_pin * r_z
 
 
 @formula("friction_radius", "artobolevsky_1988, ch. 11")
-def friction_radius_of_angle(f_z: Value, r_z: Value) -> Value:
+def friction_radius_of_angle(f_pin: Value, r_z: Value) -> Value:
     """Radius of the friction circle of a pin by the friction angle, whose sine it takes."""
-    return f_z * r_z / np.sqrt(1 + f_z**2)
+    return f_pin * r_z / np.sqrt(1 + f_pin**2)
 
 
 @formula("friction_torque", "artobolevsky_1988, ch. 11")

@@ -34,9 +34,9 @@ def joint_distance_square(dx: Value, dy: Value) -> Value:
 
 
 @formula("doubled_area", _DYADS)
-def doubled_area(kappa: Value, l_i: Value, l_k: Value, d_sq: Value) -> Value:
+def doubled_area(s_b: Value, l_i: Value, l_k: Value, d_sq: Value) -> Value:
     """Twice the area of the triangle of an RRR dyad, by Heron's formula."""
-    return 0.5 * kappa * np.sqrt(((l_i + l_k) ** 2 - d_sq) * (d_sq - (l_i - l_k) ** 2))
+    return 0.5 * s_b * np.sqrt(((l_i + l_k) ** 2 - d_sq) * (d_sq - (l_i - l_k) ** 2))
 
 
 @formula("foot_ratio", _DYADS)
@@ -70,9 +70,9 @@ def closing_x(dx_2: Value, theta_1: Value, r_x: Value, theta_k1: Value, r_kx: Va
 
 
 @formula("guide_reach", _DYADS)
-def rrp_reach(kappa: Value, l_i: Value, n_g: Value) -> Value:
+def rrp_reach(s_b: Value, l_i: Value, n_g: Value) -> Value:
     """How far along its guide the link of an RRP dyad reaches."""
-    return kappa * np.sqrt((l_i - n_g) * (l_i + n_g))
+    return s_b * np.sqrt((l_i - n_g) * (l_i + n_g))
 
 
 @formula("guide_rate", _DYADS)

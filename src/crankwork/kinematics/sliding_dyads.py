@@ -29,9 +29,9 @@ _DYADS = "artobolevsky_1988, ch. 4"
 
 
 @formula("guide_reach", _DYADS)
-def rpr_reach(kappa: Value, d_sq: Value, e_s: Value) -> Value:
+def rpr_reach(s_b: Value, d_sq: Value, e_s: Value) -> Value:
     """How far along its slot the pin of an RPR dyad lies from the foot of the pivot."""
-    return kappa * np.sqrt(d_sq - e_s * e_s)
+    return s_b * np.sqrt(d_sq - e_s * e_s)
 
 
 @formula("link_cos", _DYADS)

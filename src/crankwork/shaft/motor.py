@@ -128,9 +128,9 @@ class MotorSelection(NamedTuple):
 
 
 @formula("motor_power", "artobolevsky_1988, ch. 14")
-def needed_power(k_s: Value, M_d: Value, w: Value, eta: Value) -> Value:
+def needed_power(k_P: Value, M_d: Value, w: Value, eta: Value) -> Value:
     """Power of the motor for a torque at the crank."""
-    return k_s * M_d * w / eta
+    return k_P * M_d * w / eta
 
 
 @formula("motor_ratio", "chilikin_sandler_1981, ch. 2")
