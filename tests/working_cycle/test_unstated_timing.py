@@ -1,5 +1,6 @@
 """Valve timing that a release of heat takes where none is stated: told, and the work that follows from it."""
 
+import itertools
 import math
 
 import numpy as np
@@ -41,7 +42,7 @@ def closed_work(closes: float, opens: float) -> float:
     """Return the work of a closed cylinder by its first law, a quarter of a degree after another. [J]"""
     angles = np.arange(closes, opens + 1e-9, 0.25)
     pressure, work = 0.09e6, 0.0
-    for low, high in zip(angles, angles[1:], strict=False):
+    for low, high in itertools.pairwise(angles):
         before, after, heat = volume(low), volume(high), HEAT * (burnt(high) - burnt(low))
         # p V / (k - 1) grows by the heat less the work of the mean pressure
         rise = (after - before) / 2

@@ -211,8 +211,8 @@ def _plain(key: str, value: Any) -> Any:  # noqa: ANN401 - what a program may se
         return {str(name): _plain(key, item) for name, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(key, item) for item in value]
-    if isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value):
-        return int(value) if isinstance(value, numbers.Integral) else float(value)
     if isinstance(value, str | bool):
         return value
+    if isinstance(value, numbers.Real) and math.isfinite(value):
+        return int(value) if isinstance(value, numbers.Integral) else float(value)
     raise CrankworkError(ErrorMessage("value_kind", key=str(key)[:60]))
