@@ -33,8 +33,10 @@ def traced_efficiency(chain: Chain) -> TracedValue:
         key, path = f"efficiency.{index}", f"efficiency.chain[{index}]"
         if isinstance(part, tuple):
             terms = [
-                efficiency_share(1 / len(part), given("efficiency", one, f"{path}[{number}]")).named(f"{key}.{number}")
-                for number, one in enumerate(part, start=1)
+                efficiency_share(1 / len(part), given("efficiency", value, f"{path}[{number}]")).named(
+                    f"{key}.{number}"
+                )
+                for number, value in enumerate(part, start=1)
             ]
             factors.append(total(key, terms))
         else:
