@@ -56,8 +56,7 @@ def _columns(material: Material) -> list[str]:
 
 def _of_pin_and_rod(material: Material) -> list[str]:
     """Return the columns of crankpin and rod; without the big end where it carries what the crankpin does."""
-    keys = _columns(material)
-    return [key for key in keys if material.full or key != "big_end_load" or not _is_same(material)]
+    return [key for key in _columns(material) if material.full or key != "big_end_load" or not _is_same(material)]
 
 
 def _is_same(material: Material) -> bool:
@@ -68,9 +67,8 @@ def _is_same(material: Material) -> bool:
 
 def _components(material: Material) -> Iterator[Block]:
     """Yield the components of the load on the first main journal, sums over the throws beside it."""
-    wanted = ("bearing_force_x.main_journal.1", "bearing_force_y.main_journal.1")
-    lines = [line for line in material.lines("bearings") if line.key in wanted]
-    yield from () if material.full else material.worked(lines)
+    lines = material.lines("bearings", "bearing_force_x", "bearing_force_y")
+    yield from () if material.full else material.worked(line for line in lines if line.key.endswith("main_journal.1"))
 
 
 def _has_pin(material: Material) -> bool:
