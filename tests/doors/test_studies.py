@@ -49,7 +49,7 @@ WRONG = {
     "many designs": ("64", "1_000_000_000_000_000", ":5: designs.count: 1000000000000000 designs are wanted, more"),
     "designs of zero": ("64", "0", ":5: designs.count: 0 is not possible here; write a whole number from 1 to"),
     "unknown value": ('"stroke"', '["stroke", "stroek"]', ":2: values[2]: there is no result stroek; did you mean"),
-    "value that varies": ('"stroke"', '"piston_velocity"', ":2: values[1]: piston_velocity varies with the crank"),
+    "value that varies": ('"stroke"', '"piston_velocity"', ":2: values[1]: piston_velocity varies over the cycle"),
     "no direction": ('"minimise"', '"small"', ':10: objectives.piston_velocity_max: "small" is not possible here'),
     "limit in another unit": ("14 m/s", "14 kg", ':13: limits.piston_velocity_max.at_most: unit "kg" measures mass'),
     "limits that leave nothing": (

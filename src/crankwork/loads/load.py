@@ -67,9 +67,9 @@ class ProcessForce:
     against: Literal["stroke", "angle"] = "stroke"
     forward: Branch = 1  # 1 if the distance of the piece along its guide grows on the working stroke, -1 if it falls
     start: float = 0.0  # That distance where the working stroke begins [m]
-    begins_at_end: bool = False  # Whether that is an end of the stroke, which moves with the linkage
     # On the working stroke only, or on the return stroke too, with the same direction
     acts: Literal["forward", "both"] = "forward"
+    begins_at_end: bool = False  # Whether `start` is an end of the stroke, which moves with the linkage
 
 
 @dataclass(frozen=True)

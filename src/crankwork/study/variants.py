@@ -201,12 +201,12 @@ class MachineVariants:
         count = designs.shape[1]
         batch = BatchResult(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
         for order, kernel in enumerate(self._kernels):
-            others = np.flatnonzero(~_known(batch))
-            if others.size:
-                found = threaded(kernel, designs[:, others], workers)
-                kept = _known(found) | (order == 0)
-                batch.values[:, others[kept]] = found.values[:, kept]
-                batch.truncation_error[others[kept]] = found.truncation_error[kept]
+            missing = np.flatnonzero(~_known(batch))
+            if missing.size:
+                result = threaded(kernel, designs[:, missing], workers)
+                kept = _known(result) | (order == 0)
+                batch.values[:, missing[kept]] = result.values[:, kept]
+                batch.truncation_error[missing[kept]] = result.truncation_error[kept]
         inexact = batch.truncation_error > CONVERGED
         absent = ~np.isfinite(batch.values).all(axis=0)
         left = np.flatnonzero(inexact)

@@ -109,7 +109,8 @@ def motored_diagram(
     `theory`: of the rounded diagram, with expansion along the compression line [SI].
     """
     corners = corners_of(theory, replace(timing, ignition_advance=0.0), rounding, volume_at, dead_centres)
-    return _at_level(corners._replace(kind="motored"), 1.0)[0]
+    # its lines enclose no work, of which a filling factor would be a share
+    return _drawn(corners._replace(kind="motored"), 1.0)
 
 
 def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
@@ -134,9 +135,13 @@ def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
 
 def _at_level(corners: RoundedCorners, level: float) -> tuple[IndicatorDiagram, float]:
     """Return the diagram with a peak at a share of p_z, and its filling factor."""
-    parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
-    diagram = diagram_of_parts(parts, corners.timing.cycle, corners.volume_at, corners.states)
+    diagram = _drawn(corners, level)
     return diagram, _filling(corners, diagram)
+
+
+def _drawn(corners: RoundedCorners, level: float) -> IndicatorDiagram:
+    parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
+    return diagram_of_parts(parts, corners.timing.cycle, corners.volume_at, corners.states)
 
 
 def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:
