@@ -42,6 +42,8 @@ ARGUMENTS: dict[str, Argument] = {
     "a": Argument("piston_acceleration"),
     "n": Argument("rotational_speed", unit="rpm"),
     "w": Argument("speed"),
+    "f_pin": Argument("pin_friction"),
+    "k_P": Argument("power_reserve"),
     "eps": Argument("angular_acceleration"),
     "sin_phi": Argument("crank_angle", "sin {}"),
     "cos_phi": Argument("crank_angle", "cos {}"),

@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "dc73b60f575f",
+    "symbols": "387632d48a2b",
     "formulas": "86d5a259bf51",
     "quantities": "e91c7c7c54a6",
-    "defaults": "4be95ba2af21",
+    "defaults": "56939ece9434",
 }
 
 
