@@ -76,7 +76,7 @@ def test_no_column_of_a_table_over_positions_is_constant_or_another_one():
 
 def test_the_conclusion_states_results_with_their_positions():
     summary = results("press-geometry").summary
-    moved, loaded, torque, idle, agreement = conclusion("press-geometry")
+    moved, loaded, torque, agreement = conclusion("press-geometry")
     degrees = {
         key: np.degrees(summary[f"{key}_angle.punch"]) for key in ("slider_velocity_min", "slider_acceleration_min")
     }
@@ -89,7 +89,8 @@ def test_the_conclusion_states_results_with_their_positions():
     # angles are written to a tenth of a degree
     assert angle == pytest.approx(np.degrees(summary["joint_force_max_angle.O"]), abs=0.05)
     assert numbers(torque)[0] == pytest.approx(summary["driving_torque_max"], rel=5e-4)
-    assert "равен нулю" in idle
+    # losses take power, though nothing resists: the mean torque is not zero
+    assert not any("равен нулю" in text for text in conclusion("press-geometry"))
     rows = [row for kind in ("velocities", "accelerations")
             for row in tables(short("press-geometry"))[f"compared_{kind}"].rows if row[1] != "–"]  # fmt: skip
     shares = [abs(numbers(row[6])[0]) for row in rows if numbers(row[2])[0] > 10.5]

@@ -192,7 +192,10 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
     """Return the key of a quantity, or of the largest of those that links, joints and cylinders have."""
     if kind in summary or "." in kind:
         return [kind] if kind in summary else []
-    parts = [key for key in summary if key.startswith(f"{kind}.")] if kind.endswith(("_max", "_stroke")) else []
+    # of a slider that goes both ways the larger by size counts
+    kinds = (kind, f"{kind.removesuffix('_max')}_min") if kind.startswith("slider_") else (kind,)
+    is_part = kind.endswith(("_max", "_stroke"))
+    parts = [key for key in summary if is_part and key_of(key).owner and key_of(key).quantity in kinds]
     return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
 
 

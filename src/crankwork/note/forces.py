@@ -167,19 +167,20 @@ def _equilibrium(material: Material) -> Iterator[Block]:
     plans = force_plans(material.results, worked_position(material.results))
     solved, lines, texts = set[str](), list[Row](), list[str]()
     for plan in plans:
-        parts: list[Box] = []
+        parts, written = list[Box](), list[str]()
         key = "drawing.links" if len(plan.links) > 1 else "drawing.link"
         head = translate(key, words.language, links=", ".join(str(numbers[link]) for link in plan.links))
         for force in plan.forces:
             name = force_symbol(force, numbers, words.language).strip("$").replace(" ", ",")
             # of a guide the line of action is known
             known = 2 if force.kind == "load" or force.name in solved else 1 if force.kind == "guide" else 0
-            parts += [*([Sign("+")] if parts else []), vector_box(name, known, words)]
+            # the group before acts on this one as this one on it, the other way
+            sign = "−" if force.name in solved else "+"
+            parts += [*([Sign(sign)] if parts or sign == "−" else []), vector_box(name, known, words)]
+            written.append(f"{sign} {name}")
         solved |= {force.name for force in plan.forces}
         lines.append(row(*parts, EQUALS, Digits("0"), Upright(f"  ({head})")))
-        texts.append(
-            " + ".join(force_symbol(force, numbers, words.language).strip("$") for force in plan.forces) + " = 0"
-        )
+        texts.append(f"{' '.join(written).removeprefix('+ ')} = 0")
     if lines:
         yield words.paragraph("equilibrium")
         yield Equation(ValueLine("", 0.0), printed=PrintedEquation(tuple(lines), "; ".join(texts)))

@@ -36,6 +36,8 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
 ROUNDING = 1e-9
 # vectors of plans that are long enough to be read well [mm]
 LEGIBLE = 10.0
+# mean of a torque over its largest value that sampling leaves of none
+_NO_MEAN = 1e-3
 # where usual values of the working cycle stand
 _USUAL = "kolchin_demidov_2008, ch. 3"
 # the sum of a force along the axis of a cylinder
@@ -135,7 +137,10 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
         amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in known}
         yield words.paragraph("reads_motor" if "standard_motor_power" in known else "reads_power", **amounts)
     elif "dynamic_torque_max" in summary and "static_torque_max" not in summary and not words.is_partial:
-        yield words.paragraph("reads_idle")
+        torque = material.columns.get("driving_torque", np.zeros(2))[:-1]
+        # losses take power also where no load does
+        if abs(np.mean(torque)) <= _NO_MEAN * np.max(np.abs(torque)):
+            yield words.paragraph("reads_idle")
     wheel = next((key for key in ("flywheel_inertia", "flywheel_inertia.exact") if summary.get(key, 0.0) > 0), "")
     wanted = material.machine.drive.fluctuation or summary.get("speed_fluctuation")
     if wheel and wanted:
@@ -181,10 +186,12 @@ def _of_mains(material: Material) -> Paragraph | None:
     if not rows:
         return None
     load, angle = (listing.columns[f"bearing_load_max{place}"] for place in ("", "_angle"))
-    row = max(rows, key=lambda index: float(load[index]))
+    largest = max(float(load[index]) for index in rows)
+    row, *equal = (index for index in rows if load[index] >= largest * (1 - ROUNDING))
+    numbers = "".join(f", {listing.names[index].rpartition('.')[2]}" for index in equal)
     return words.paragraph(
         "reads_mains",
-        name=row_name(listing.names[row], words.language),
+        name=f"{row_name(listing.names[row], words.language)}{numbers}",
         value=words.amount(float(load[row]), key_unit("bearing_load_max"), digits=4),
         angle=words.angle(float(angle[row])),
     )
