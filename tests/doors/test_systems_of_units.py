@@ -64,7 +64,7 @@ def test_summary_json_and_explanation_speak_one_system() -> None:
 @pytest.mark.parametrize(
     ("name", "languages", "on_paper"),
     # scale, rounding and headings of plans are in millimetres of the paper
-    [("engine", ["ru"], 0), ("press", ["vi"], 6), ("crank-shaper", ["en", "ru"], 6)],
+    [("engine", ["ru"], 0), ("press", ["vi"], 7), ("crank-shaper", ["en", "ru"], 7)],
 )
 def test_a_note_shows_every_value_in_its_system_beside_si(name, languages, on_paper) -> None:
     results = crankwork.analyse(crankwork.read_machine(f'units = "imperial"\n{crankwork.template(name)}'))
