@@ -191,6 +191,7 @@ def test_a_column_alone_is_refused_with_what_to_write():
         crankwork.sweep(SLIDER_CRANK, {"crank.radius": ["40 mm"]}, ["crank_torque"])
 
 
+@pytest.mark.data
 def test_the_tables_of_a_study_are_a_workbook_too(study, tmp_path):
     stated = load_study(study(STUDY))
     aggregate = run_study(stated, tmp_path / "out", ExecutionOptions(1))
