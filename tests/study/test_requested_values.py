@@ -192,7 +192,7 @@ def test_a_column_alone_is_refused_with_what_to_write():
 
 
 @pytest.mark.data
-def test_the_tables_of_a_study_are_a_workbook_too(study, tmp_path):
+def test_the_tables_of_a_study_are_a_workbook_too(study, tmp_path, monkeypatch):
     stated = load_study(study(STUDY))
     aggregate = run_study(stated, tmp_path / "out", ExecutionOptions(1))
     with zipfile.ZipFile(io.BytesIO(found_files(stated, aggregate)["study.xlsx"])) as book:
@@ -201,5 +201,8 @@ def test_the_tables_of_a_study_are_a_workbook_too(study, tmp_path):
     assert "Histogram.side_force_max" in names
     assert "Histogram.piston_displacement@" in names
     assert "count" in words
+    with monkeypatch.context() as patched:
+        patched.setitem(sys.modules, "xlsxwriter", None)
+        assert "study.xlsx" not in found_files(stated, aggregate)
     # every design is kept where there are few, though the file does not say so
     assert stated.has_rows

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
@@ -13,6 +14,7 @@ import numpy as np
 
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting, apply_settings
+from crankwork.errors import MissingExtraError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language, capital, in_language, translate
 from crankwork.locale.numbers import aligned, number, unit_name
@@ -46,8 +48,10 @@ def found_files(study: Study, aggregate: StudyAggregate, language: Language = "e
     with use_units(study.units):
         sheets = _sheets(study, aggregate)
         tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in sheets.items()}
-        book = workbook_of(sheets, {"title": study.title[:255]}, language)
-    return {"summary.json": f"{data}\n".encode(), **tables, "study.xlsx": book}
+        # the same tables are there as CSV
+        with contextlib.suppress(MissingExtraError):
+            tables["study.xlsx"] = workbook_of(sheets, {"title": study.title[:255]}, language)
+    return {"summary.json": f"{data}\n".encode(), **tables}
 
 
 def found_text(study: Study, aggregate: StudyAggregate, language: Language = "en") -> str:
