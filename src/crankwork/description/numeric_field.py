@@ -49,16 +49,14 @@ def kind_of(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - each kin
     return kind
 
 
-def numeric_field(values: dict[str, Any], key: str) -> NumericField:
-    """Return the number of a machine file that a key names; it must be continuous."""
+def numeric_field(values: dict[str, Any], key: str, option: str = "--for") -> NumericField:
+    """Return the number of a machine file that a key names; it must be continuous. `option`: what messages name."""
     try:
         kind = kind_of(values, key)
     except UnknownKeyError as error:
         mistake = error.args[0]
-        message = (
-            mistake if mistake.name == "key_form" else ErrorMessage("option_key_wrong", key=key[:60], mistake=mistake)
-        )
-        raise UnknownKeyError(message) from None
+        message = ErrorMessage("option_wrong", option=f"{option} {key[:60]}".lstrip(), mistake=mistake)
+        raise UnknownKeyError(mistake if mistake.name == "key_form" else message) from None
     now = stated_value(values, key)
     kind, reader = single_kind(kind, now), Reader(decimal_comma=True)
     match kind:
@@ -105,7 +103,7 @@ def following(values: dict[str, Any], key: str, value: str) -> str | float:
     match: Any = _FOLLOWING.fullmatch(value)
     try:
         field = numeric_field(values, key)
-        other = numeric_field(values, match["key"])
+        other = numeric_field(values, match["key"], f"{key} = {value[:60]}:")
     except CrankworkError:
         if match["key"] == value:
             # a name, such as that of a file

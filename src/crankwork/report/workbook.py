@@ -77,7 +77,7 @@ class _Writer:
 
     def title(self, sheet: Any, column: int, key: str, unit: str) -> None:  # noqa: ANN401 - xlsxwriter has no types
         """Write the heading of a column: its name, its symbol with the subscript below, and its unit."""
-        # a study has numbers of the machine file beside results
+        # tables of a study hold numbers of the machine file too
         is_result = base_key(key) in QUANTITIES
         named, unit = label(key, self._language) if is_result else key, unit_name(unit, self._language)
         parts = self._set(symbol(key, self._language)) if is_result else []

@@ -186,14 +186,7 @@ def _axis(values: dict[str, object], text: str) -> tuple[NumericField, SearchPoi
     match = _OVER.fullmatch(text)
     if match is None:
         raise CrankworkError(ErrorMessage("map_over", text=text[:60]))
-    try:
-        variable = numeric_field(values, match["key"])
-    except CrankworkError as error:
-        mistake = error.args[0]
-        if mistake.name != "option_key_wrong":
-            raise
-        option = f"--over {match['key'][:60]}"
-        raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=mistake.values["mistake"])) from None
+    variable = numeric_field(values, match["key"], "--over")
     steps = int(match["steps"] or STEPS)
     if not _MIN_STEPS <= steps <= _MAX_STEPS:
         raise CrankworkError(ErrorMessage("map_steps", most=str(_MAX_STEPS)))

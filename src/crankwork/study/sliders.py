@@ -110,12 +110,13 @@ def _range(values: dict[str, object], text: str, around: float) -> tuple[Numeric
         raise CrankworkError(ErrorMessage("slider_form", text=text[:60]))
     key = match["key"]
     try:
-        number = numeric_field(values, key)
+        number = numeric_field(values, key, _OPTION)
     except CrankworkError as error:
         mistake = error.args[0]
         if mistake.name.startswith("sought"):
             raise CrankworkError(ErrorMessage("slider_no_number", key=key[:60])) from None
-        mistake = mistake.values["mistake"] if mistake.name == "option_key_wrong" else mistake
+        if mistake.name == "option_wrong":
+            raise
         raise CrankworkError(ErrorMessage("option_wrong", option=f"{_OPTION} {key[:60]}", mistake=mistake)) from None
     if number.now is None:
         raise CrankworkError(ErrorMessage("slider_unstated", key=key))

@@ -116,7 +116,8 @@ def solve_several(  # noqa: PLR0913 - equations, unknowns and options of the sea
     results = analyse(description.machine(overrides))
     wanted = dict[str, float]()
     for text in equations:
-        target, parts = parse_target(split_target(text), results), split_target(text)
+        parts = split_target(text)
+        target = parse_target(parts, results)
         wanted[f"{target.key}@{parts.place}" if parts.place else target.key] = target.level
     levels = np.array(list(wanted.values()))
     bounds = {field.key: (float(low), float(high)) for field, (low, _, high) in zip(fields, ends, strict=True)}

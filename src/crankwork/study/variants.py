@@ -407,4 +407,6 @@ def _in_si(number: NumericField, values: Sequence[float | str]) -> list[float]:
     try:
         return [parse_in(value, number.unit) if isinstance(value, str) else float(value) for value in values]
     except ValueError as error:
-        raise CrankworkError(ErrorMessage("option_key_wrong", key=number.key, mistake=error.args[0])) from None
+        raise CrankworkError(
+            ErrorMessage("option_wrong", option=f"--for {number.key}", mistake=error.args[0])
+        ) from None
