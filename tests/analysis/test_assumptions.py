@@ -243,6 +243,37 @@ def test_conventions_of_rounding_are_told_only_where_they_round():
     assert idle(rounded(small, peak_pressure=peak, rise=1.25))["cycle.rise"] == "halfway"
 
 
+def test_conventions_of_rounding_are_those_of_the_cylinders_that_fire():
+    description = Description(template("whole-engine"))
+    stated = assumed(analyse(description))
+    description.replace({"engine.misfire": [1], "cycle.motored": "compressed"})
+    assert "cycle.rise" in stated
+    assert assumed(analyse(description)) >= stated
+
+
+def test_a_force_on_a_piece_that_never_moves_back_acts_forward_in_any_case():
+    text = """
+fixed_points = { D = ["0 mm", "0 mm"] }
+guides.line = { through = ["0 mm", "0 mm"], angle = "0 deg" }
+sliders.ram = { guide = "line", pin = "A" }
+links.rod = { joins = ["A", "B"], length = "300 mm" }
+links.rocker = { joins = ["D", "B"], length = "200 mm" }
+driver = { slider = "ram", start = "100 mm", period = "1 s", law = LAW }
+positions = { A = ["100 mm", "0 mm"], B = ["-50 mm", "190 mm"] }
+[[loads]]
+kind = "process"
+slider = "ram"
+stroke = "growing"
+at = ["0 mm", "50 mm"]
+force = ["0 N", "9 N"]
+acts = "both"
+"""
+    there, rest = '{ kind = "trapezoidal", to = "150 mm", over = 0.5, ramp = 0.1 }', '{ kind = "dwell", over = 0.5 }'
+    laws = f"[{there}, {there.replace('150', '100')}]", f"[{there}, {rest}]"
+    told = [idle(analyse(Description(text.replace("LAW", law)))) for law in laws]
+    assert [known.get("loads[1].acts") for known in told] == [None, "no_return_force"]
+
+
 def test_uneven_intervals_of_a_customary_order_are_told_by_its_intervals():
     text = FILES["whole-engine"]
     description = Description(text)

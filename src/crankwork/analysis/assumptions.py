@@ -185,6 +185,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"method\.(pi|kinematics)", lambda *_: False),
     (r".*\.measured\.shift", lambda results, *_: all(item.code != "measured_zero" for item in results.notices)),
     (r"method\.gravity", lambda results, *_: "method.gravity" in leaves(results) and _has_mass(results)),
+    (r"loads\[\d+\]\.acts", lambda *found: not _idle_return(*found)),
     (r"method\.weights", lambda results, *_: _has_mass(results)),
     (r"rod\.ratio_definition", lambda _, stated, __: "rod.ratio" in stated),
     (r"engine\.strokes", lambda results, *_: results.machine.gas is None and not results.machine.chambers),
@@ -303,6 +304,21 @@ def _idle_uneven(results: Results, *_: object) -> str:
     return "even_intervals" if np.ptp(gaps) <= _EVEN else ""
 
 
+def _idle_return(results: Results, _: Mapping[str, FileInput], path: str) -> str:
+    """Return whether a process force is zero wherever its piece moves back."""
+    load = results.machine.loads[int(re.findall(r"\d+", path)[0]) - 1]
+    if not isinstance(load, ProcessForce):
+        return ""
+    position, velocity = (f"{name}.{load.slider}" for name in ("slider_displacement", "slider_velocity"))
+    degrees = np.linspace(results.grid.degrees[0], results.grid.degrees[-1], 4 * _SAMPLES)
+    columns = results.columns_at(degrees, [position, velocity])
+    rate = load.forward * columns[velocity]
+    force = load.force(
+        load.forward * (columns[position] - load.start) if load.against == "stroke" else np.radians(degrees)
+    )
+    return "" if np.any(force[rate < -_ROUNDING * np.max(np.abs(rate))]) else "no_return_force"
+
+
 def _idle_numbering(results: Results, *_: object) -> str:
     engine = results.machine.engine
     places = engine.layout.places if engine is not None else ()
@@ -362,6 +378,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (_ABOUT, _idle_about),
     (r"links\..+\.(inertia|radius_of_gyration)", _idle_inertia),
+    (r"loads\[\d+\]\.acts", _idle_return),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),
 )

@@ -26,7 +26,8 @@ class Polynomials(NamedTuple):
 
 def lobatto(count: int) -> Polynomials:
     """Return the nodes and weights of Lobatto's quadrature (abramowitz_stegun_1964, 25.4.32)."""
-    inner = legendre.legroots(legendre.legder([0.0] * (count - 1) + [1.0]))
+    # complex since NumPy 2.5
+    inner = legendre.legroots(legendre.legder([0.0] * (count - 1) + [1.0])).real
     nodes = np.concatenate([[-1.0], inner, [1.0]])
     weights = 2 / (count * (count - 1) * legendre.legval(nodes, [0.0] * (count - 1) + [1.0]) ** 2)
     return Polynomials(nodes, weights, np.linalg.inv(legendre.legvander(nodes, count - 1)))

@@ -192,6 +192,11 @@ class MisfirePressure:
         return self.firing.cycle if isinstance(self.firing, CornerPressure) else None
 
     @property
+    def rounding(self) -> Rounding:
+        """How corners of the firing cylinders are rounded."""
+        return self.firing.rounding if isinstance(self.firing, CornerPressure) else Rounding()
+
+    @property
     def has_corners(self) -> bool:
         """Whether the diagram of the firing cylinders has corners."""
         return self.firing.has_corners
