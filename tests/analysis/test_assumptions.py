@@ -259,7 +259,7 @@ sliders.ram = { guide = "line", pin = "A" }
 links.rod = { joins = ["A", "B"], length = "300 mm" }
 links.rocker = { joins = ["D", "B"], length = "200 mm" }
 driver = { slider = "ram", start = "100 mm", period = "1 s", law = LAW }
-positions = { A = ["100 mm", "0 mm"], B = ["-50 mm", "190 mm"] }
+positions = { B = ["-50 mm", "190 mm"] }
 [[loads]]
 kind = "process"
 slider = "ram"
