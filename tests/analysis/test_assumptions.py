@@ -258,8 +258,8 @@ guides.line = { through = ["0 mm", "0 mm"], angle = "0 deg" }
 sliders.ram = { guide = "line", pin = "A" }
 links.rod = { joins = ["A", "B"], length = "300 mm" }
 links.rocker = { joins = ["D", "B"], length = "200 mm" }
-driver = { slider = "ram", start = "100 mm", period = "1 s", law = LAW }
-positions = { B = ["-50 mm", "190 mm"] }
+driver = { slider = "ram", start = "200 mm", period = "1 s", law = LAW }
+positions = { B = ["0 mm", "200 mm"] }
 [[loads]]
 kind = "process"
 slider = "ram"
@@ -268,8 +268,8 @@ at = ["0 mm", "50 mm"]
 force = ["0 N", "9 N"]
 acts = "both"
 """
-    there, rest = '{ kind = "trapezoidal", to = "150 mm", over = 0.5, ramp = 0.1 }', '{ kind = "dwell", over = 0.5 }'
-    laws = f"[{there}, {there.replace('150', '100')}]", f"[{there}, {rest}]"
+    there, rest = '{ kind = "trapezoidal", to = "250 mm", over = 0.5, ramp = 0.1 }', '{ kind = "dwell", over = 0.5 }'
+    laws = f"[{there}, {there.replace('250', '200')}]", f"[{there}, {rest}]"
     told = [idle(analyse(Description(text.replace("LAW", law)))) for law in laws]
     assert [known.get("loads[1].acts") for known in told] == [None, "no_return_force"]
 
