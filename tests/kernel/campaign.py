@@ -15,7 +15,7 @@ import signal
 import sys
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -40,7 +40,9 @@ FIELDS, PART, COMPARED = 2, 0.01, 3
 # how far another design is from the stated one, in each number more
 AWAY = 0.004
 # How far values, sums over the cycle and angles of extremes or their ratios may be apart: beside their size, in rad.
-LIMITS = {"value": 1e-12, "integral": 1e-10, "angle": 1e-7}
+LIMITS = {"value": 1e-12, "integral": 1e-10, "angle": 1e-7, "time": 1e-7}
+# how far a kernel may be from the designs that it was traced from, as in studies
+SAME, NEAR_ANGLE = 1e-9, 1e-5
 _INTEGRALS = ("flywheel", "excess", "energy", "rim", "whole_inertia", "work", "reduced_inertia_mean")
 _SECONDS = 120
 _NEAR_DEAD = 1e-6
@@ -179,10 +181,29 @@ def _compared(
     except NotCompiledError as error:
         # such designs are analysed one by one
         return Comparison(name, reasons=reasons | dict.fromkeys(keys, f"{error.reason}: {error.key}"))
-    return _worst(Comparison(name, len(keys), reasons=reasons), machine, kernel, np.random.default_rng(seed))
+    # studies look at such designs first, and analyse all others one by one where they differ
+    unlike = _unlike(machine, kernel)
+    reasons.update({key: f"differs: {key}" for key in unlike})
+    known = Comparison(name, len(keys) - len(unlike), reasons=reasons)
+    return _worst(known, machine, kernel, np.random.default_rng(seed), unlike)
 
 
-def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.Generator) -> Comparison:
+def _unlike(machine: Machine, kernel: Kernel) -> set[str]:
+    """Return the keys whose compiled values differ from the analyses that the kernel was traced from."""
+    bulk, unlike = kernel(machine.rows.T), set[str]()
+    limits = [NEAR_ANGLE if _kind(key) == "angle" else SAME for key in kernel.keys]
+    size = np.nanmax(np.abs(bulk.values), axis=1) * limits
+    for at, results in enumerate(machine.traced):
+        if bulk.truncation_error[at] <= CONVERGED:
+            expected = np.array([results.summary.get(key, np.nan) for key in kernel.keys])
+            pairs = zip(kernel.keys, bulk.values[:, at].tolist(), expected.tolist(), size.tolist(), strict=True)
+            unlike.update(key for key, value, other, limit in pairs if _difference(key, value, other) > limit)
+    return unlike
+
+
+def _worst(
+    found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.Generator, left: Collection[str] = ()
+) -> Comparison:
     """Return how far designs between those traced are apart at most."""
     designs = machine.now * (1 + machine.part * draw.uniform(-1, 1, (COMPARED, machine.now.size)))
     bulk, worst, left_out = kernel(designs.T), dict[str, tuple[float, str]](), 0
@@ -199,8 +220,10 @@ def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.
             near_dead += 1
             continue
         for key, value in zip(kernel.keys, bulk.values[:, at].tolist(), strict=True):
+            if key in left:
+                continue
             kind, summary = _kind(key), results.summary
-            apart, size = abs(value - summary.get(key, np.nan)), _size(key, summary)
+            apart, size = _difference(key, value, summary.get(key, np.nan)), _size(key, summary)
             if not apart <= LIMITS[kind] * size:
                 # of a small difference of large numbers rounding is left, and analyses stand a little behind a jump
                 size = max(size, _size_of(results.trace[key], results))
@@ -212,6 +235,12 @@ def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.
             if not apart <= worst.get(kind, (-1.0, ""))[0]:
                 worst[kind] = apart, f"{key}: {summary.get(key)!r} and {value!r}"
     return found._replace(worst=worst, left_out=left_out, near_dead=near_dead, values=counted)
+
+
+def _difference(key: str, value: float, expected: float) -> float:
+    """Return how far a value is from another; half a turn forward is half a turn back."""
+    apart = abs(value - expected)
+    return abs(math.remainder(apart, 2 * math.pi)) if key.endswith("_angle") and math.isfinite(apart) else apart
 
 
 def _from_dead_position(summary: Mapping[str, float]) -> float:
@@ -256,6 +285,8 @@ def _kind(key: str) -> str:
     word = key.partition(".")[0]
     if word.endswith(("_max_angle", "_min_angle", "time_ratio")):
         return "angle"
+    if word.endswith(("_max_time", "_min_time")):
+        return "time"
     return "integral" if word.startswith(_INTEGRALS) else "value"
 
 

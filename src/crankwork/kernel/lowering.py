@@ -421,8 +421,9 @@ class Lowering:
     def _law_end(self, angles: Array, value: KernelValue | None, place: TracedValue) -> LawEnd:
         """Return the end of a law that is at these angles in the compared designs; `place`: what it follows from."""
         low, high = float(angles.min()), float(angles.max())
-        if value is None or (self._designs.fields.shape[1] == 1 and high - low <= _TOLERANCE * high):
-            # depends on the one number that differs, but is constant
+        is_single = self._designs.fields.shape[1] == 1
+        if value is None or value.kind == "constant" or (is_single and high - low <= _TOLERANCE * high):
+            # depends on numbers that differ, but is constant
             return LawEnd(low, low, low)
         margin = _BEYOND * (high - low) + _MIN_BEYOND
         end = LawEnd(float(angles[0]), low - margin, high + margin, value)
@@ -479,8 +480,10 @@ class Lowering:
         is_same = all(isinstance(other, Tabulated) and other.function == function for other in compared)
         if argument is None or not is_same or not hasattr(function, "law_at"):
             raise NotCompiledError("table", node.word)
-        knots = np.array([other.knots for other in compared if isinstance(other, Tabulated)])
-        knots = knots[:, np.argsort(knots[0])]
+        passed = [other.knots for other in compared if isinstance(other, Tabulated)]
+        if len({len(knots) for knots in passed}) > 1:
+            raise NotCompiledError("ways", argument.key)
+        knots = np.array(passed)[:, np.argsort(passed[0])]
         if np.any(np.diff(knots, axis=1) < 0):
             raise NotCompiledError("ways", argument.key)
         last = max(float(self._sample_angles[-1]), float(knots[0, -1])) if knots.size else 0.0
