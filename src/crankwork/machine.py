@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from crankwork.shaft.flywheel_sizing import FlywheelSpec
     from crankwork.shaft.motor import GearedMotor, MotorSelection
     from crankwork.shaft.torque_diagram import ShaftTorques
+    from crankwork.working_cycle.burning_analysis import BurningAnalysis
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 __all__ = [
@@ -159,6 +160,8 @@ class Gas:
         Of the gauge pressure, and its path in the description. [-]
     path : str
         Of the diagram in the description.
+    combustion : BurningAnalysis or None
+        What the analysis of combustion from measured samples is told.
     """
 
     cycle: float = 720.0
@@ -177,6 +180,7 @@ class Gas:
     factor: float = 1.0
     factor_path: str = ""
     path: str = "gas"
+    combustion: BurningAnalysis | None = None
 
 
 @dataclass(frozen=True)

@@ -117,6 +117,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1e6 * 180 / math.pi, "MPa/deg MPa/° МПа/град"), (1e5 * 180 / math.pi, "bar/deg бар/град"),
         (1.0, "Pa/rad Па/рад"), (_LBF / _IN**2 * 180 / math.pi, "psi/deg"),
     ],
+    "energy_by_angle": [(180 / math.pi, "J/deg Дж/град J/°"), (1.0, "J/rad Дж/рад"),
+                        (_LBF * _FT * 180 / math.pi, "ft*lbf/deg")],
     "pressure_by_velocity": [(1e6, "MPa*s/m МПа*с/м"), (1.0, "Pa*s/m Па*с/м")],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
     "specific_heat": [(1.0, "J/(kg*K) Дж/(кг*К)"), (1e3, "kJ/(kg*K) кДж/(кг*К)")],
@@ -206,7 +208,7 @@ _IMPERIAL = {
     "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
     "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
-    "m3/min": "ft3/min", "MPa/deg": "psi/deg", "degC": "degF",
+    "m3/min": "ft3/min", "MPa/deg": "psi/deg", "J/deg": "ft*lbf/deg", "degC": "degF",
 }  # fmt: skip
 
 

@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "387632d48a2b",
-    "formulas": "86d5a259bf51",
-    "quantities": "e91c7c7c54a6",
-    "defaults": "56939ece9434",
+    "symbols": "61a27651a813",
+    "formulas": "28ef1f499166",
+    "quantities": "9425f2047fec",
+    "defaults": "83e3788c9eca",
 }
 
 

@@ -162,7 +162,12 @@ def _analysed(
         from crankwork.analysis.mechanism import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_linkage(machine, grid, progress)
-    return analyse_engine(machine, grid, method=method)
+    results = analyse_engine(machine, grid, method=method)
+    if machine.gas is None or machine.gas.combustion is None:
+        return results
+    from crankwork.analysis.combustion import with_combustion  # noqa: PLC0415 - loaded where it is needed
+
+    return with_combustion(results)
 
 
 def columns_only(machine: Machine) -> Results:
@@ -170,7 +175,8 @@ def columns_only(machine: Machine) -> Results:
 
     Faster than `analyse`.
     """
-    if machine.transfer is not None or machine.turning is not None:
+    is_burning = machine.gas is not None and machine.gas.combustion is not None
+    if machine.transfer is not None or machine.turning is not None or is_burning:
         return analyse(machine)
     engine = None if machine.method.is_exact else _engine_of(machine, machine.method)
     if engine is not None:

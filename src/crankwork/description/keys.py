@@ -584,7 +584,8 @@ _PEG = TableSpec("peg", {
     "to": KeySpec(_ANGLE, required=True, only={"exponent": ()}, example='"330 deg"'),
 })  # fmt: skip
 # of a file with a column of angles, which steps replace
-_OF_TABLE = ("angle_column", "pressure_column", "angle_unit")
+_OF_TABLE = ("angle_column", "pressure_column", "angle_unit", "time_column")
+_OVER_TIME = {"time_column": ()}
 _COLUMN = NameOr(Number(1, 16_384, whole=True))
 MEASURED = TableSpec("measured", {
     "file": KeySpec(Text(1000), required=True, instead_of=("values",)),
@@ -595,6 +596,9 @@ MEASURED = TableSpec("measured", {
     "angle_column": KeySpec(_COLUMN),
     "pressure_column": KeySpec(_COLUMN),
     "angle_unit": KeySpec(UnitOf("angle")),
+    "time_column": KeySpec(_COLUMN, instead_of=("angle_column", "angle_unit", "step")),
+    "time_unit": KeySpec(UnitOf("time"), only=_OVER_TIME),
+    "speed": KeySpec(SPEED, required=True, only=_OVER_TIME),
     "pressure_unit": KeySpec(UnitOf("pressure")),
     "shift": KeySpec(_ANGLE, default="0 deg"),
     "reversed": KeySpec(Flag(), default=False),
@@ -639,6 +643,18 @@ PIPED_VALVES = VALVES._replace(keys={
     "vapour_pressure": KeySpec(_OPENING, only=_LIQUID),
 })  # fmt: skip
 
+_WINDOW = ListOf(_ANGLE, fewest=2, most=2)
+_COMBUSTION = TableSpec("combustion", {
+    "from": KeySpec(_ANGLE, required=True, example='"220 deg"'),
+    "to": KeySpec(_ANGLE, required=True, example='"480 deg"'),
+    "adiabatic_exponent": KeySpec(Number(1.01, 2.0), default=1.33),
+    "temperature": KeySpec(_TEMPERATURE),
+    "exponent_slope": KeySpec(Number(-1e-3, 1e-3), default=0.0, only={"temperature": ()}),
+    "wall_temperature": KeySpec(_TEMPERATURE, only={"temperature": ()}),
+    "burning": KeySpec(_WINDOW),
+    "windows": KeySpec(ListOf(_WINDOW, fewest=1, most=20)),
+})  # fmt: skip
+
 # keys of the pressure of a cylinder or chamber
 PRESSURES = KeySpec(Choice(("gauge", "absolute")), default="gauge")
 DIAGRAM = {
@@ -655,6 +671,7 @@ _GAS = TableSpec("gas", {
     **DIAGRAM,
     "measured": DIAGRAM["measured"]._replace(kind=_OF_ALL),
     "valves": KeySpec(VALVES, instead_of=tuple(DIAGRAM), only={"pressures": ("absolute",), "cycle": ("360 deg",)}),
+    "combustion": KeySpec(_COMBUSTION, only={"measured": ()}),
     "cylinders": KeySpec(MapOf(TableSpec("gas", _OWN), most=28)),
     "motored": KeySpec(NameOr(TableSpec("gas", DIAGRAM))),
 })  # fmt: skip

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.description.combustion_build import build_combustion
 from crankwork.description.schema import Values, nearest_name, no_effect_message
 from crankwork.description.table_file import FileTable, read_list, read_table
 from crankwork.description.value_types import Reader
@@ -107,7 +108,7 @@ def read_measured(values: Values, reader: Reader, path: str) -> MeasuredPressure
             ErrorMessage("in_file", file=file, mistake=ErrorMessage("measured_thousands", line=line)),
         )
         return None
-    degrees = samples[:, 0] * UNITS[columns.angle_unit].factor / UNITS["deg"].factor
+    degrees = samples[:, 0] * UNITS[columns.angle_unit].factor * _turned(values) / UNITS["deg"].factor
     degrees, lines = -degrees if columns.is_before else degrees, table.lines
     pressure = samples[:, 1:] * UNITS[columns.pressure_unit].factor
     if np.all(np.diff(degrees) < 0):
@@ -129,6 +130,11 @@ def read_measured(values: Values, reader: Reader, path: str) -> MeasuredPressure
         zero=columns.zero,
         unit=columns.pressure_unit,
     )
+
+
+def _turned(values: Values) -> float:
+    """Return by how much a recording over time turns in a second, 1 for one over the crank angle. [rad/s]"""
+    return float(values.si("speed") or 1.0) if "time_column" in values else 1.0
 
 
 def _listed(values: Values, reader: Reader, path: str) -> MeasuredPressure | None:
@@ -200,7 +206,8 @@ def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -
 def _columns(table: FileTable, values: Values) -> _Columns:
     """Return the columns to read, and their units; raise if the machine file must name them."""
     mistakes, chosen = list[ErrorMessage](), list[tuple[int, ...]]([(-1,)])
-    for kind in ("angle", "pressure"):
+    over = "time" if "time_column" in values else "angle"
+    for kind in (over, "pressure"):
         try:
             chosen.append(_chosen(table, values, kind, chosen[-1]))
         except CrankworkError as error:
@@ -213,8 +220,8 @@ def _columns(table: FileTable, values: Values) -> _Columns:
     taken = table.label(pressures[0]) + more
     if len(table.names) > 2 and not {"angle_column", "pressure_column"} <= set(values):
         notices.append(("measured_columns_taken", {"angle": table.label(angle), "pressure": taken}))
-    units = [_unit(table, values, "angle", angle, notices), _unit(table, values, "pressure", pressures[0], notices)]
-    of_file = [unit for unit, key in zip(units, ("angle_unit", "pressure_unit"), strict=True) if key not in values]
+    units = [_unit(table, values, over, angle, notices), _unit(table, values, "pressure", pressures[0], notices)]
+    of_file = [unit for unit, key in zip(units, (f"{over}_unit", "pressure_unit"), strict=True) if key not in values]
     if pressures and "pressure_unit" not in values and units[1]:
         notices.append(("measured_units_of_file", {"units": ", ".join(of_file)}))
     heading = f"{table.names[angle]} {table.written[angle]}"
@@ -291,7 +298,7 @@ def _unit(table: FileTable, values: Values, kind: str, position: int, notices: l
         values_of_message = {"unit": written[:20], "column": table.label(position), "name": key}
         raise table.refused("measured_unit_unknown", **values_of_message, options="deg, rad")
     if key not in values:
-        return own if own or kind == "pressure" else "deg"
+        return own if own or kind == "pressure" else "s" if kind == "time" else "deg"
     stated = str(values[key])
     if own and UNITS[own] != UNITS[stated]:
         notices.append(
@@ -310,7 +317,7 @@ def _are_thousands(table: FileTable, pressure: Array) -> bool:
 
 def _check_angles(angles: Array, unit: str, table: FileTable) -> None:
     """Raise for angles in degrees that span whole turns in radians, and vice versa."""
-    if len(angles) < _FEWEST:
+    if len(angles) < _FEWEST or UNITS[unit].dimension == "time":
         return
     span, step = float(np.ptp(angles)), float(np.median(np.abs(np.diff(angles))))
     turn, other = (2 * math.pi, "rad") if unit == "deg" else (360.0, "deg")
@@ -342,6 +349,7 @@ def build_gas(values: Values | None, cylinder: Cylinder | None, reader: Reader) 
         ambient=(values.but(pressures="absolute").si("ambient") or 0.0) if is_absolute else 0.0,
         names_ambient="ambient" in values,
         back_pressure=values.si("back_pressure") or 0.0,
+        combustion=build_combustion(values, reader, is_absolute=is_absolute),
     )
 
 

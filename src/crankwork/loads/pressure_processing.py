@@ -18,6 +18,7 @@ from crankwork.loads.measured_pressure import (
     NoticeData,
     Pegging,
     Preprocessing,
+    RecordedCycles,
     closed_diagram,
     likely_unit,
     recorded_cycles,
@@ -85,14 +86,10 @@ def measured_diagram(
     of the first cycle set the angles [deg]. `path`: where a description states the diagram.
     """
     treatment, key = measured.treatment, f"{path}.measured"
-    recorded = recorded_cycles(measured, cycle, step=step, path=path)
+    recorded, degrees, offsets = treated_cycles(measured, cycle, around.volume_at, shift=shift, step=step, path=path)
     notices = [*recorded.notices, *_spikes(measured)]
-    degrees = recorded.degrees + shift
-    volume = around.volume_at(np.mod(degrees, cycle))
-    cycles = recorded.cycles
+    volume, cycles = around.volume_at(np.mod(degrees, cycle)), recorded.cycles
     if treatment.peg is not None:
-        offsets = _offsets(cycles, degrees, volume, treatment.peg, (cycle, f"{key}.peg"))
-        cycles = cycles + offsets[:, None]
         notices.append(("pressure_pegged", {"step": float(offsets.mean())}))
     notices += _spread(cycles, volume)
     pressure = _chosen(cycles, treatment.cycle, f"{key}.cycle", notices)
@@ -118,6 +115,21 @@ def measured_diagram(
             questions += _other_strokes((degrees, absolute), around, cycle, shift)
         notices += [(code, {**values, "name": key}) for code, values in questions or against]
     return diagram, notices
+
+
+def treated_cycles(
+    measured: MeasuredPressure, cycle: float, volume_at: VolumeAt, *, shift: float, step: float | None, path: str
+) -> tuple[RecordedCycles, Array, Array]:
+    """Return the cycles of a recording with their pegs, the crank angles of the machine, and the offsets added.
+
+    Arguments as those of `measured_diagram`. [deg], [Pa]
+    """
+    recorded = recorded_cycles(measured, cycle, step=step, path=path)
+    degrees, offsets = recorded.degrees + shift, np.zeros(len(recorded.cycles))
+    if measured.treatment.peg is not None:
+        where, key = np.mod(degrees, cycle), f"{path}.measured.peg"
+        offsets = _offsets(recorded.cycles, degrees, volume_at(where), measured.treatment.peg, (cycle, key))
+    return recorded._replace(cycles=recorded.cycles + offsets[:, None]), degrees, offsets
 
 
 def _other_strokes(
