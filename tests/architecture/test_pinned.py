@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "387632d48a2b",
-    "formulas": "86d5a259bf51",
-    "quantities": "e91c7c7c54a6",
-    "defaults": "56939ece9434",
+    "symbols": "4c75672ef8b7",
+    "formulas": "26759dae5f38",
+    "quantities": "b765b3eb7ab1",
+    "defaults": "12050eb11aa4",
 }
 
 
