@@ -16,6 +16,7 @@ from crankwork.kinematics.piston import as_slider_crank
 from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured_pressure import MeasuredPressure
+from crankwork.loads.stages import Stages
 from crankwork.loads.valves import Valves
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law
@@ -381,6 +382,8 @@ class Machine:
         The gas between sliding pieces of a linkage, and the gas sealed in several chambers, by name.
     shaft : Shaft or None
         The crankshaft of a linkage of crank, rods and pistons, if more of it is known than the linkage shows.
+    stages : Stages or None
+        The stages of a compressor, with a linkage whose chambers they are, or instead of a mechanism.
     drive : Drive
         Motor, flywheel and efficiency on the crank.
     transient : Transient or None
@@ -436,6 +439,7 @@ class Machine:
     stated: Mapping[str, InputNumber] = field(default_factory=dict, compare=False, repr=False)
     # What the description states and what it leaves to defaults; None without a description
     inputs: Callable[[], FileInputs] | None = field(default=None, compare=False, repr=False)
+    stages: Stages | None = None
 
     @property
     def lengths(self) -> SliderCrank | None:

@@ -154,6 +154,10 @@ def _analysed(
         from crankwork.analysis.given_torques import analyse_turning  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_turning(machine, machine.turning, grid)
+    if machine.stages is not None and machine.linkage is None:
+        from crankwork.analysis.stages import analyse_stages  # noqa: PLC0415 - loaded where it is needed
+
+        return analyse_stages(machine, machine.stages, grid)
     if machine.transfer is not None:
         from crankwork.analysis.given_motion import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
@@ -176,7 +180,8 @@ def columns_only(machine: Machine) -> Results:
     Faster than `analyse`.
     """
     is_burning = machine.gas is not None and machine.gas.combustion is not None
-    if machine.transfer is not None or machine.turning is not None or is_burning:
+    has_mechanism = machine.transfer is None and machine.turning is None and machine.mechanism.crank.radius
+    if is_burning or not has_mechanism:
         return analyse(machine)
     engine = None if machine.method.is_exact else _engine_of(machine, machine.method)
     if engine is not None:

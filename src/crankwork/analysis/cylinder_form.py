@@ -68,6 +68,7 @@ def _check_expressible(machine: Machine, *, has_all: bool) -> None:
     drive = machine.drive
     unsupported: dict[str, object] = {
         "charges": machine.charges,
+        "stages": machine.stages,
         "links": machine.redundant,
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,
     }

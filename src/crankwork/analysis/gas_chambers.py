@@ -111,6 +111,11 @@ def _delivery(solved: PreparedLinkage, values: Mapping[str, TracedValue]) -> dic
         if "isothermal_power" in result and values["indicated_power"].value:
             efficiency = isothermal_efficiency(result["isothermal_power"], values["indicated_power"])
             result["isothermal_efficiency"] = efficiency
+    if solved.machine.stages is not None:
+        # few machines have them
+        from crankwork.analysis.stages import stage_values  # noqa: PLC0415 - loaded where it is needed
+
+        result |= stage_values(solved.machine, solved.machine.stages, {**values, **result})
     return result
 
 

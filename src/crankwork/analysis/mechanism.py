@@ -48,6 +48,7 @@ from crankwork.analysis.speed import (
     has_flywheel,
     has_friction,
 )
+from crankwork.analysis.stages import stage_checks, stage_listing, stage_notices
 from crankwork.analysis.transient import simulate_transient
 from crankwork.analysis.transmission_quality import (
     FOLLOWED,
@@ -152,7 +153,8 @@ def analyse_linkage(
     summary |= cycle.summary()
     ran = simulate_transient(solved, motion, result, summary, progress)
     summary, checks = summary | ran.summary, checks | ran.checks
-    notices += ran.notices + tuple(_of_machine(machine))
+    notices += ran.notices + tuple(_of_machine(machine)) + tuple(stage_notices(summary))
+    checks |= stage_checks(summary)
     # change points have a notice of their own
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(trace)(table))
@@ -166,7 +168,9 @@ def analyse_linkage(
     trace |= {**summary, **between}
     harmonics = cache(partial(_harmonics, moved, over))
     deferred = Deferred(trace, lambda: {**moved.bearings.between, **cycle.values} | harmonics())
-    listings = Deferred(ran.listings, lambda: cycle.listings() | listed_harmonics(harmonics()))
+    listings = Deferred(
+        {**ran.listings, **stage_listing(summary)}, lambda: cycle.listings() | listed_harmonics(harmonics())
+    )
     return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, deferred)
 
 

@@ -15,6 +15,7 @@ from crankwork.description.measured_build import (
 from crankwork.description.schema import Values, no_effect_message
 from crankwork.description.value_types import Reader
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfCycle
+from crankwork.loads.valves import Valves
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.linkage import Linkage
@@ -30,8 +31,12 @@ def build_chambers(
     mechanism: Mechanism | None,
     reader: Reader,
     pi: float,
+    staged: Mapping[str, Valves],
 ) -> tuple[dict[str, Chamber], dict[str, Charge]]:
-    """Return chambers and charges by name; those with mistakes may be left out."""
+    """Return chambers and charges by name; those with mistakes may be left out.
+
+    `staged`: valves of chambers that are told by the stages of a compressor, by name.
+    """
     tables = {name: table for name, table in values["chambers"].items() if table is not None}
     sealed = {name: charge for name, charge in values["charges"].items() if charge is not None}
     sliders = {member.name for member in linkage.members if member.guide} if linkage is not None else None
@@ -49,14 +54,18 @@ def build_chambers(
     for name, table in tables.items():
         path = f"chambers.{name}"
         faces = tuple(_faces(path, table, sliders, reader))
-        _check_pressure(path, table, sealed.get(holder.get(name, "")), reader)
-        diagram, valves = build_diagram(table, path, reader), build_valves(table, path, reader)
+        if name in staged:
+            _check_staged(path, table, reader)
+        else:
+            _check_pressure(path, table, sealed.get(holder.get(name, "")), reader)
+        diagram, valves = build_diagram(table, path, reader), staged.get(name) or build_valves(table, path, reader)
         if not faces or any(problem.key.startswith(path) for problem in reader.problems):
             continue
         if valves is not None:
             volumes = (table.si("clearance_volume"), table["compression_ratio"])
             diagram = with_valves(diagram, valves, has_clearance=any(volumes))
         is_absolute = pressures_of(table, diagram.measured) == "absolute" or name in holder or "cycle" in table
+        is_absolute |= name in staged
         counted = table.but(pressures="absolute") if is_absolute else table
         chambers[name] = table.made(
             Chamber,
@@ -97,6 +106,13 @@ def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader)
             reader.add_error(f"{place}.rod_diameter", ErrorMessage("face_rod"))
         taken.add(slider)
         yield Face(slider, bore, rod, face.si("area"), -1 if face["sense"] == -1 else 1)
+
+
+def _check_staged(path: str, chamber: Values, reader: Reader) -> None:
+    """Report a pressure of its own of a chamber that a stage gives its pressures."""
+    for key in (*_OWN_PRESSURE, "pressures", "period"):
+        if key in chamber and (key, chamber[key]) not in (("pressures", "absolute"), ("period", "360 deg")):
+            reader.add_error(f"{path}.{key}", ErrorMessage("chamber_staged"))
 
 
 def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: Reader) -> None:

@@ -141,9 +141,9 @@ _ENGINE_SECTIONS = (
     "sources", "appendix",
 )  # fmt: skip
 _LINKAGE_SECTIONS = (
-    "summary", "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques",
-    "friction", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks",
-    "conclusion", "nomenclature", "sources", "appendix",
+    "summary", "task", "structure", "kinematics", "quality", "chambers", "stages", "forces", "balance", "reduction",
+    "torques", "friction", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison",
+    "checks", "conclusion", "nomenclature", "sources", "appendix",
 )  # fmt: skip
 _TRANSFER_SECTIONS = (
     "summary", "task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "nomenclature", "sources",
@@ -152,6 +152,7 @@ _TURNING_SECTIONS = (
     "summary", "task", "moments", "energy", "motor", "flywheel", "law_of_motion", "comparison", "checks",
     "conclusion", "nomenclature", "sources",
 )  # fmt: skip
+_STAGES_SECTIONS = ("summary", "task", "stages", "comparison", "checks", "conclusion", "nomenclature", "sources")
 _WORDS = Text(300)
 _HEAD = (
     "title_en", "title_ru", "title_vi",
@@ -288,6 +289,7 @@ def document_key(sections: tuple[str, ...]) -> KeySpec:
 
 ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key(_LINKAGE_SECTIONS)
 TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
+STAGES_DOCUMENT = document_key(_STAGES_SECTIONS)
 
 
 def stated_document(values: Mapping[str, Any]) -> Document:

@@ -28,6 +28,7 @@ from crankwork.description.range_checks import (
     without_unshared,
 )
 from crankwork.description.schema import Values
+from crankwork.description.stages_build import stage_valves
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.dynamics.tabulated_inertia import TabulatedBody
@@ -84,7 +85,8 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
         reader.add_error(problem.key or "links", problem.message)
     method = build_method(values["method"], reader)
     loads = _loads(values, linkage, reader)
-    chambers, charges = build_chambers(values, linkage, mechanism, reader, method.pi)
+    stages, staged = stage_valves(values, method, reader)
+    chambers, charges = build_chambers(values, linkage, mechanism, reader, method.pi, staged)
     if "driver" in values:
         _check_by_angle(values, reader)
     drive = _drive(values, method, reader)
@@ -116,6 +118,7 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
         notices=notices,
         chambers=chambers,
         charges=charges,
+        stages=stages,
         shaft=build_shaft(values, reader),
         drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + (crank.si("inertia") or 0.0)),
         transient=transient,

@@ -28,6 +28,7 @@ from crankwork.description.keys import (
     PRESSURES,
     SHEET,
     SPEED,
+    STAGES_DOCUMENT,
     TABLE,
     TIME,
     TITLE,
@@ -36,7 +37,7 @@ from crankwork.description.keys import (
     TURNING_DOCUMENT,
     with_defaults,
 )
-from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
+from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, OneForAll, TableSpec
 from crankwork.description.value_types import Choice, Number, Quantity, Text
 from crankwork.mechanism.driver import LawKind
 from crankwork.shaft.torque_diagram import Shape
@@ -180,6 +181,70 @@ _CHARGE = TableSpec("charge", {
     "mass": KeySpec(Quantity(("mass",), 1e-12, 1e6), instead_of=("mean_pressure", "pressure")),
 })  # fmt: skip
 
+_MOST_STAGES = 12
+_POSITIVE = Quantity(("pressure",), 0.0, 1e10)
+_STAGE_EXPONENT = OneForAll(Number(1.0, 3.0), _MOST_STAGES)
+_COOLED = OneForAll(_TEMPERATURE.kind, _MOST_STAGES)
+_OF_HEAT = {"gas_constant": (), "temperature": ()}
+# of stages alone and of those whose chambers are told
+_OF_STAGES = {
+    "suction": KeySpec(_ABSOLUTE, required=True),
+    "discharge": KeySpec(_ABSOLUTE, required=True),
+    "between": KeySpec(OneForAll(_ABSOLUTE, _MOST_STAGES), instead_of=("ratio_limit", "temperature_limit")),
+    "losses": KeySpec(OneForAll(_POSITIVE, _MOST_STAGES)),
+    "exponent": KeySpec(_STAGE_EXPONENT, required=True, instead_of=("discharge_temperature",)),
+    "discharge_temperature": KeySpec(_TEMPERATURE.kind, instead_of=("exponent",), only={"temperature": ()}),
+    "expansion_exponent": KeySpec(_STAGE_EXPONENT),
+    "temperature": _TEMPERATURE,
+    "temperatures": KeySpec(_COOLED, only={"temperature": ()}),
+    "final_temperature": KeySpec(_TEMPERATURE.kind, only={"heat_capacity": ()}),
+    "gas_constant": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), only={"temperature": ()}),
+    "heat_capacity": KeySpec(Quantity(("specific_heat",), 1.0, 1e6), only=_OF_HEAT),
+    "free_pressure": KeySpec(_ABSOLUTE, only={"temperature": (), "free_temperature": ()}),
+    "free_temperature": KeySpec(_TEMPERATURE.kind, only={"temperature": (), "free_pressure": ()}),
+    "water_rise": KeySpec(Quantity(("temperature",), 0.0, 1e3, above=True), instead_of=("water_flow",),
+                      only={"heat_capacity": ()}),
+    "water_flow": KeySpec(Quantity(("mass_rate",), 0.0, 1e6, above=True), instead_of=("water_rise",),
+                      only={"heat_capacity": ()}),
+    "water_heat_capacity": KeySpec(Quantity(("specific_heat",), 1.0, 1e6), default="4187 J/(kg*K)",
+                               only={"heat_capacity": ()}),
+}  # fmt: skip
+_DELIVERIES = ("flow", "free_flow", "mass_flow")
+_RATE = Quantity(("volume_rate",), 0.0, 1e6, above=True)
+_STAGES = TableSpec("stages", {
+    "count": KeySpec(Number(1, _MOST_STAGES, whole=True), default=1, instead_of=("ratio_limit", "temperature_limit")),
+    "ratio_limit": KeySpec(Number(1.01, 100.0), instead_of=("count", "temperature_limit")),
+    "temperature_limit": KeySpec(_TEMPERATURE.kind, instead_of=("count", "ratio_limit"),
+                             only={"temperature": (), "exponent": ()}),
+    **_OF_STAGES,
+    "clearance": KeySpec(OneForAll(Number(0.0, 0.9), _MOST_STAGES), instead_of=("volumetric_efficiency",)),
+    "volumetric_efficiency": KeySpec(OneForAll(Number(0.05, 1.0), _MOST_STAGES), instead_of=("clearance",)),
+    "flow": KeySpec(_RATE, instead_of=("free_flow", "mass_flow")),
+    "free_flow": KeySpec(_RATE, instead_of=("flow", "mass_flow"), only={"free_pressure": ()}),
+    "mass_flow": KeySpec(Quantity(("mass_rate",), 0.0, 1e6, above=True), instead_of=("flow", "free_flow"),
+                     only={"gas_constant": ()}),
+    "bore": KeySpec(LENGTH),
+    "stroke": KeySpec(LENGTH, instead_of=("stroke_bore_ratio", "piston_speed")),
+    "stroke_bore_ratio": KeySpec(Number(0.2, 5.0), instead_of=("stroke", "piston_speed")),
+    "piston_speed": KeySpec(Quantity(("velocity",), 0.0, 100.0, above=True),
+                        instead_of=("stroke", "stroke_bore_ratio")),
+    "sides": KeySpec(Number(1, 48, whole=True), default=1),
+    "shaft_power": KeySpec(Quantity(("power",), 0.0, 1e9, above=True)),
+})  # fmt: skip
+_STAGES_OF_CHAMBERS = TableSpec("stages", {
+    **_OF_STAGES,
+    "chambers": KeySpec(ListOf(ListOf(NAME, fewest=1, most=50), fewest=1, most=_MOST_STAGES), required=True,
+                    example='[["low"], ["high"]]'),
+})  # fmt: skip
+STAGES_FILE = TableSpec("file", {
+    **TITLE,
+    "document": STAGES_DOCUMENT,
+    "crank": KeySpec(TableSpec("driving", {"speed": KeySpec(SPEED, required=True)})),
+    "stages": KeySpec(_STAGES, required=True),
+    "efficiency": KeySpec(EFFICIENCY),
+    "method": KeySpec(METHOD),
+})  # fmt: skip
+
 _ALONG = Quantity(("length",), -100.0, 100.0)
 _SHAFT = TableSpec("shaft", {
     "cylinders": KeySpec(ListOf(NAME, fewest=1, most=MOST_CYLINDERS)),
@@ -214,6 +279,7 @@ LINKAGE_FILE = TableSpec("file", {
     "positions": KeySpec(MapOf(_PLACE)),
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
+    "stages": KeySpec(_STAGES_OF_CHAMBERS),
     "shaft": KeySpec(_SHAFT),
     "bearings": KeySpec(_BEARINGS),
     "balance": KeySpec(BALANCE),
@@ -226,7 +292,7 @@ LINKAGE_FILE = TableSpec("file", {
 STARTED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
-_OF_CRANKSHAFT = ("shaft", "bearings", "balance")
+_OF_CRANKSHAFT = ("stages", "shaft", "bearings", "balance")
 DRIVEN_FILE = LINKAGE_FILE._replace(keys={
     **{name: key for name, key in LINKAGE_FILE.keys.items() if name not in _OF_CRANKSHAFT},
     "crank": KeySpec(_CRANK._replace(keys={

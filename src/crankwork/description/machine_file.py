@@ -34,6 +34,7 @@ from crankwork.description.links_keys import (
     GIVEN_MOTION_FILE,
     LINKAGE_FILE,
     PRESS_FILE,
+    STAGES_FILE,
     STARTED_FILE,
     TRANSFER_FILE,
     TURNING_FILE,
@@ -59,7 +60,7 @@ _ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZE
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
 _LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
-FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
+FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE, STAGES_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -172,7 +173,7 @@ def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
     """Return the keys that can never have an effect with the others, with the reason; none in files of format 1."""
     if values["format"] == 1:
         return {}
-    if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE):
+    if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE, STAGES_FILE):
         return {f"method.{name}": ErrorMessage("idle_method") for name in METHOD.keys if name != "pi"}
     idle = dict[str, ErrorMessage]()
     if keys in _LINKAGES:
@@ -256,6 +257,10 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | 
         from crankwork.description.torque_build import build_turning  # noqa: PLC0415 - loaded where it is needed
 
         return build_turning(read_values, reader)
+    if keys == STAGES_FILE:
+        from crankwork.description.stages_build import build_compressor  # noqa: PLC0415 - loaded where it is needed
+
+        return build_compressor(read_values, reader)
     if keys in _LINKAGES:
         # an engine starts faster without these modules
         from crankwork.description.links_build import (  # noqa: PLC0415 - loaded where it is needed
@@ -290,7 +295,7 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
 
 
 def file_keys(values: Mapping[str, Any]) -> TableSpec:
-    """Return the keys for the kind of machine in a file: engine, linkage, tabulated linkage or shaft."""
+    """Return the keys for the kind of machine in a file: engine, linkage, table, shaft, or stages of a compressor."""
     if "transfer" in values:
         return TRANSFER_FILE
     if isinstance(table := values.get("table"), dict) and "angles" in table and "rod" not in values:
@@ -299,6 +304,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return TURNING_FILE if "torque" in values else PRESS_FILE
     crank = values.get("crank")
     is_started = "transient" in values and isinstance(crank, dict) and "speed" not in crank
+    if "stages" in values and not any(name in values for name in (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle")):
+        return STAGES_FILE
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else STARTED_FILE if is_started else LINKAGE_FILE
     cycle, cylinder, is_loaded = values.get("cycle"), values.get("cylinder"), not LOADING.keys().isdisjoint(values)

@@ -142,6 +142,22 @@ class OneOrMore(NamedTuple):
         return {"anyOf": [own, {"type": "array", "items": own, "minItems": 1, "maxItems": self.most}]}
 
 
+class OneForAll(NamedTuple):
+    """A value of one kind for all of several parts, or a list with one for each."""
+
+    entry: ValueType
+    most: int
+
+    def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - a value or a list of them
+        """Return the value, or the list."""
+        is_list = isinstance(value, list)
+        return (ListOf(self.entry, fewest=1, most=self.most) if is_list else self.entry).read(value, key, reader)
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of either."""
+        return OneOrMore(self.entry, self.most).schema(language)
+
+
 class NameOr(NamedTuple):
     """A name, or a value of another kind."""
 

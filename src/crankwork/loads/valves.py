@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -145,6 +145,7 @@ class Valves:
     suction_pipe: Pipe | None = None
     discharge_pipe: Pipe | None = None
     vapour_pressure: float | None = None
+    linked: Mapping[str, TracedValue] = field(default_factory=dict)  # Numbers of a stage, by field
 
     @property
     def has_pipes(self) -> bool:
@@ -208,6 +209,8 @@ class StatedValves:
 
     def _given(self, key: str, name: str) -> TracedValue:
         value = getattr(self.valves, name)
+        if name in self.valves.linked:
+            return self.valves.linked[name].named(f"{key}{self.own}")
         return absent(key) if value is None else given(f"{key}{self.own}", value, f"{self.path}.{name}")
 
     @property

@@ -64,8 +64,9 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 # sections in the order of a school; those that results have nothing for are left out
 _LINKAGE = (
     "summary", "task", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics", "quality",
-    "chambers", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor", "flywheel",
-    "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+    "chambers", "stages", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor",
+    "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources",
+    "appendix",
 )  # fmt: skip
 # sections of a linkage that the main course leaves out
 _FULL = ("bearings",)

@@ -1,0 +1,121 @@
+"""From the values of a machine file to the stages of a compressor, alone or with the chambers of a linkage."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from crankwork.analysis.stages import stage_states
+from crankwork.description.build import build_method, crank_speed
+from crankwork.description.drive_build import read_drive
+from crankwork.description.schema import Values
+from crankwork.description.stated import stated_numbers
+from crankwork.description.value_types import MeasuredValue, Reader
+from crankwork.loads.stages import Stages
+from crankwork.loads.valves import Valves
+from crankwork.locale import ErrorMessage
+from crankwork.machine import Machine
+from crankwork.mechanism.mechanism import Crank, Mechanism
+from crankwork.method import Method
+
+_DELIVERIES = ("flow", "free_flow", "mass_flow")
+_SHAPES = ("stroke", "stroke_bore_ratio", "piston_speed")
+# lists with an entry for each stage, and for each cooler
+_BY_STAGE, _BY_COOLER = (
+    ("exponent", "expansion_exponent", "clearance", "volumetric_efficiency"),
+    ("between", "losses", "temperatures"),
+)
+
+
+def build_compressor(values: Values, reader: Reader) -> Machine | None:
+    """Return the machine of stages without a mechanism, or None after complaints."""
+    method, table = build_method(values["method"], reader), values["stages"]
+    if not method.is_exact:
+        reader.add_error("method.kinematics", ErrorMessage("turning_exact"))
+    drive, has_speed = read_drive(values, reader), "crank" in values
+    if reader.problems or table is None:
+        return None
+    has_flow, has_shape = any(name in table for name in _DELIVERIES), any(name in table for name in _SHAPES)
+    if not has_flow and not ("bore" in table and has_shape):
+        reader.add_error("stages", ErrorMessage("stages_size"))
+    if not has_speed and ("bore" in table or has_shape):
+        reader.add_error("crank.speed", ErrorMessage("missing", advice=('speed = "300 rpm"',)))
+    for name in ("clearance", "volumetric_efficiency"):
+        if has_flow and "bore" in table and name in table:
+            reader.add_error(f"stages.{name}", ErrorMessage("stages_twice"))
+    if "shaft_power" in table and drive.chain is not None:
+        reader.add_error("stages.shaft_power", ErrorMessage("same", others=["efficiency"]))
+    speed = crank_speed(values["crank"]["speed"], method) if has_speed else 1.0
+    stages = Stages(_numbers(table), has_speed=has_speed)
+    machine = Machine(
+        Mechanism(Crank(radius=0.0), ()), speed=speed, title=values["title"] or "", stages=stages, drive=drive,
+        method=method, stated=stated_numbers(values),
+    )  # fmt: skip
+    _check(stages, machine, table, reader)
+    return None if reader.problems else machine
+
+
+def stage_valves(values: Values, method: Method, reader: Reader) -> tuple[Stages | None, Mapping[str, Valves]]:
+    """Return the stages of chambers, and the valves that each of these has of its stage, by name; report mistakes."""
+    if reader.problems or "stages" not in values:
+        return None, {}
+    table, known = values["stages"], values["chambers"]
+    named = [(name, f"stages.chambers[{i}][{j}]") for i, names in enumerate(table["chambers"], start=1)
+             for j, name in enumerate(names, start=1)]  # fmt: skip
+    for name, place in named:
+        if name not in known:
+            reader.add_error(place, ErrorMessage("absent_chamber", name=name, known=", ".join(known) or "–"))
+        elif [item for item, _ in named].count(name) > 1:
+            reader.add_error(place, ErrorMessage("chamber_twice", name=name))
+    numbers = {**_numbers(table), "count": (float(len(table["chambers"])),)}
+    stages = Stages(numbers, tuple(map(tuple, table["chambers"])))
+    crank = Mechanism(Crank(radius=0.0), ())
+    machine = Machine(crank, speed=1.0, stages=stages, method=method, stated=stated_numbers(values))
+    _check(stages, machine, table, reader)
+    if reader.problems:
+        return None, {}
+    valves = dict[str, Valves]()
+    for names, state in zip(stages.chambers, stage_states(machine, stages), strict=True):
+        linked = {"compression_exponent" if name == "exponent" else name: value for name, value in state.items()}
+        fields: dict[str, Any] = {name: value.value for name, value in linked.items()}
+        valves |= dict.fromkeys(names, Valves(**fields, linked=linked))
+    return stages, valves
+
+
+def _numbers(table: Values) -> dict[str, tuple[float, ...]]:
+    """Return the numbers of a table by key, defaults too."""
+    numbers = dict[str, tuple[float, ...]]()
+    for name in table.table.keys:
+        value = table[name]
+        entries = value if isinstance(value, list) else [value]
+        if name != "chambers" and entries and None not in entries:
+            numbers[name] = tuple(item.value if isinstance(item, MeasuredValue) else float(item) for item in entries)
+    return numbers
+
+
+def _check(stages: Stages, machine: Machine, table: Values, reader: Reader) -> None:
+    """Report lists of a wrong length, and pressures that do not rise from stage to stage."""
+    if reader.problems:
+        return
+    states = stage_states(machine, stages)
+    for names, wanted in ((_BY_STAGE, len(states)), (_BY_COOLER, len(states) - 1)):
+        for name in names:
+            count = (
+                len(table[name])
+                if isinstance(table[name], list)
+                else 1
+                if name == "between" and name in table
+                else wanted
+            )
+            if count != wanted:
+                reader.add_error(f"stages.{name}", ErrorMessage("entries", count=count, wanted=wanted))
+    exponents = {value for name in _BY_STAGE[:2] for value in stages.numbers.get(name, ())}
+    if 1.0 in exponents and len(exponents) > 1:
+        reader.add_error("stages.exponent", ErrorMessage("stages_isothermal"))
+    if len(set(stages.numbers.get("exponent", ()))) > 1 and "between" not in table:
+        reader.add_error("stages.exponent", ErrorMessage("stages_best"))
+    for number, state in enumerate(states, start=1):
+        low, high = state["suction"].value, state["discharge"].value
+        if not low < high and not reader.problems:
+            place = "discharge" if number == len(states) else "between"
+            reader.add_error(f"stages.{place}", ErrorMessage("stages_rise", number=number, low=low / 1e6))
