@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from crankwork.cylinders.layout import Bearings, Layout, PinBearing, Shaft
+from crankwork.cylinders.planes import Rotor
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import as_slider_crank
@@ -424,6 +425,8 @@ class Machine:
     working_range: tuple[float, float] | None = None
     engine: Engine | None = None
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
+    # Masses on a shaft in given planes, instead of a mechanism
+    rotor: Rotor | None = None
     # Crank range, if the description determined it
     way: CrankRange | None = field(default=None, compare=False, repr=False)
     # The linkage that an engine is, or the engine that a linkage with friction was written as
@@ -432,6 +435,11 @@ class Machine:
     stated: Mapping[str, InputNumber] = field(default_factory=dict, compare=False, repr=False)
     # What the description states and what it leaves to defaults; None without a description
     inputs: Callable[[], FileInputs] | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has a mechanism, instead of transfer functions or what is on a shaft."""
+        return self.transfer is None and self.turning is None and self.rotor is None
 
     @property
     def lengths(self) -> SliderCrank | None:

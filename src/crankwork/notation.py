@@ -527,6 +527,20 @@ ARGUMENTS: dict[str, Argument] = {
     "K_M": Argument("moment_factor"),
     "a_z": Argument("balance_pitch"),
     "k_b": Argument("balanced_share"),
+    "Q_p": Argument("plane_moment"),
+    "theta_p": Argument("plane_angle"),
+    "r_p": Argument("plane_radius"),
+    "U_x": Argument("rotor_unbalance_x"),
+    "U_y": Argument("rotor_unbalance_y"),
+    "C_x": Argument("rotor_couple_x"),
+    "C_y": Argument("rotor_couple_y"),
+    "P_w": Argument("wheel_load"),
+    "rho_s": Argument("sector_density"),
+    "b_s": Argument("sector_width"),
+    "R_o": Argument("sector_outer_radius"),
+    "R_i": Argument("sector_inner_radius"),
+    "z_s": Argument("sector_count"),
+    "alpha_s": Argument("sector_angle"),
 }
 
 

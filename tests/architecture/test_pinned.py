@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "387632d48a2b",
-    "formulas": "86d5a259bf51",
-    "quantities": "e91c7c7c54a6",
-    "defaults": "56939ece9434",
+    "symbols": "70d260a251d7",
+    "formulas": "da529404b087",
+    "quantities": "1da127d92a40",
+    "defaults": "f32646a48fcf",
 }
 
 

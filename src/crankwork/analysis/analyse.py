@@ -154,6 +154,10 @@ def _analysed(
         from crankwork.analysis.given_torques import analyse_turning  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_turning(machine, machine.turning, grid)
+    if machine.rotor is not None:
+        from crankwork.analysis.rotor_balance import analyse_rotor  # noqa: PLC0415 - loaded where it is needed
+
+        return analyse_rotor(machine, machine.rotor, grid)
     if machine.transfer is not None:
         from crankwork.analysis.given_motion import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
@@ -170,7 +174,7 @@ def columns_only(machine: Machine) -> Results:
 
     Faster than `analyse`.
     """
-    if machine.transfer is not None or machine.turning is not None:
+    if not machine.moves:
         return analyse(machine)
     engine = None if machine.method.is_exact else _engine_of(machine, machine.method)
     if engine is not None:

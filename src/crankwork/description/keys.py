@@ -152,6 +152,9 @@ _TURNING_SECTIONS = (
     "summary", "task", "moments", "energy", "motor", "flywheel", "law_of_motion", "comparison", "checks",
     "conclusion", "nomenclature", "sources",
 )  # fmt: skip
+_ROTOR_SECTIONS = (
+    "summary", "task", "planes", "comparison", "checks", "conclusion", "nomenclature", "sources",
+)  # fmt: skip
 _WORDS = Text(300)
 _HEAD = (
     "title_en", "title_ru", "title_vi",
@@ -288,6 +291,7 @@ def document_key(sections: tuple[str, ...]) -> KeySpec:
 
 ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key(_LINKAGE_SECTIONS)
 TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
+ROTOR_DOCUMENT = document_key(_ROTOR_SECTIONS)
 
 
 def stated_document(values: Mapping[str, Any]) -> Document:
