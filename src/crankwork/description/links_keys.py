@@ -213,6 +213,7 @@ LINKAGE_FILE = TableSpec("file", {
     "sliders": KeySpec(MapOf(_SLIDER, most=300)),
     "branch": KeySpec(MapOf(Choice((1, -1)))),
     "positions": KeySpec(MapOf(_PLACE)),
+    "extents": KeySpec(ListOf(NAME, fewest=1, most=50)),
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
     "shaft": KeySpec(_SHAFT),

@@ -225,6 +225,8 @@ _LINKAGE = (
     Quantity("crank_sin", "", "Sine of the crank angle."),
     Quantity("half_turns", "", "Half turns that a direction is ahead of the arc tangent of its slope."),
     Quantity("slider_stroke", "mm", "Difference of the extreme displacements of a slider."),
+    Quantity("path_width", "mm", "Difference of the extreme coordinates of a point along the fixed x axis."),
+    Quantity("path_height", "mm", "Difference of the extreme coordinates of a point along the fixed y axis."),
     Quantity("link_swing", "deg", "Difference of the extreme directions of a link that does not turn fully."),
     Quantity("joint_force_x", "N", "Force in a revolute joint on the link that is held, along the fixed x axis."),
     Quantity("joint_force_y", "N", "Force in a revolute joint on the link that is held, along the fixed y axis."),
