@@ -425,6 +425,8 @@ class Machine:
     working_range: tuple[float, float] | None = None
     engine: Engine | None = None
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
+    # How many masses replace the rod with the same inertia, `two masses` or `three masses`
+    rod_equivalent: str = ""
     # Points of a linkage, the extents of whose paths are told
     extents: tuple[str, ...] = ()
     # Masses on a shaft in given planes, instead of a mechanism

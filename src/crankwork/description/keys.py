@@ -540,6 +540,11 @@ _CRANK = TableSpec("crank", {
 })  # fmt: skip
 
 _ENDS = ("small_end_mass", "big_end_mass")
+_PENDULUM = TableSpec("pendulum", {
+    **dict.fromkeys(("small_end_period", "big_end_period"), KeySpec(Quantity(("time",), 1e-3, 1e3), required=True)),
+    **dict.fromkeys(("small_end_diameter", "big_end_diameter"), KeySpec(LENGTH, required=True)),
+})  # fmt: skip
+_MEASURED_ROD = ("small_end_share", "centre_of_mass", "inertia", "radius_of_gyration")
 _ROD = TableSpec("rod", {
     "ratio": KeySpec(Number(1e-6, 1e6), required=True, instead_of=("length",)),
     "length": KeySpec(LENGTH, instead_of=("ratio",)),
@@ -551,6 +556,8 @@ _ROD = TableSpec("rod", {
     "big_end_mass": KeySpec(_MASS, instead_of=("mass", "small_end_share", "centre_of_mass")),
     "inertia": KeySpec(Quantity(("inertia",), 0.0, 1e6), instead_of=("radius_of_gyration",)),
     "radius_of_gyration": KeySpec(LENGTH, instead_of=("inertia",)),
+    "pendulum": KeySpec(_PENDULUM, instead_of=_MEASURED_ROD, only={"mass": ()}),
+    "equivalent": KeySpec(Choice(("two masses", "three masses")), only={"mass": ()}),
 })  # fmt: skip
 
 _PISTON = TableSpec("piston", {"mass": KeySpec(_MASS)})
