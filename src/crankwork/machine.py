@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from crankwork.cylinders.layout import Bearings, Layout, PinBearing, Shaft
+from crankwork.cylinders.planes import Rotor
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import as_slider_crank
@@ -431,6 +432,12 @@ class Machine:
     working_range: tuple[float, float] | None = None
     engine: Engine | None = None
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
+    # How many masses replace the rod with the same inertia, `two masses` or `three masses`
+    rod_equivalent: str = ""
+    # Points of a linkage, the extents of whose paths are told
+    extents: tuple[str, ...] = ()
+    # Masses on a shaft in given planes, instead of a mechanism
+    rotor: Rotor | None = None
     # Crank range, if the description determined it
     way: CrankRange | None = field(default=None, compare=False, repr=False)
     # The linkage that an engine is, or the engine that a linkage with friction was written as
@@ -440,6 +447,12 @@ class Machine:
     # What the description states and what it leaves to defaults; None without a description
     inputs: Callable[[], FileInputs] | None = field(default=None, compare=False, repr=False)
     stages: Stages | None = None
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has a mechanism, instead of transfer functions or what is on a shaft."""
+        is_given = self.transfer is not None or self.turning is not None or self.rotor is not None
+        return not is_given and (self.stages is None or self.linkage is not None)
 
     @property
     def lengths(self) -> SliderCrank | None:

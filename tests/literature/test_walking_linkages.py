@@ -13,6 +13,7 @@ import math
 import numpy as np
 import pytest
 
+import crankwork
 from crankwork import read_machine
 from crankwork.kinematics.circuits import circuit_through
 from crankwork.kinematics.configuration_curve import driver_coordinate
@@ -242,3 +243,57 @@ def test_the_strider_stays_on_the_stated_branch():
         },
     }
     _as_walked(tables, places, start, ("D", "E", "G", "H"))
+
+
+@pytest.mark.elsewhere
+def test_jansens_leg_as_a_template():
+    results = crankwork.analyse(crankwork.Description(crankwork.template("jansen")))
+    moved = results.columns_at(list(PLACES), [f"point_{axis}.{name}" for name in JOINTS for axis in "xy"])
+    for name in JOINTS:
+        for index, axis in enumerate("xy"):
+            wanted = [1e-3 * place[name][index] for place in PLACES.values()]
+            assert moved[f"point_{axis}.{name}"] == pytest.approx(wanted, abs=2e-11), name
+    ends = [results[f"point_{axis}_{end}.foot"] for axis in "xy" for end in ("min", "max")]
+    assert ends == pytest.approx([1e-3 * one for one in EXTREMES], abs=2e-11)
+    assert results["path_width.foot"] == pytest.approx(0.06790842169150824, abs=2e-11)
+    assert results["path_height.foot"] == pytest.approx(0.02245717358431621, abs=2e-11)
+
+
+@pytest.mark.elsewhere
+def test_the_lambda_linkage_as_a_template():
+    """Proportions 1, 2, 2.5, 2.5 and 5 with a crank of 40 mm; straight to 0.009 of it over half a turn."""
+    results = crankwork.analyse(crankwork.Description(crankwork.template("hoecken")))
+    assert results["path_width.P"] == pytest.approx(0.04 * 4.70361414989372, abs=1e-13)
+    assert results["path_height.P"] == pytest.approx(0.04 * 0.8989794855663562, abs=1e-13)
+    assert results["point_x_max_angle.P"] == pytest.approx(math.radians(55.99494215380475), abs=1e-8)
+    heights = [results.value("point_y.P", angle) for angle in (90, 120, 180, 270)]
+    assert heights == pytest.approx([0.16, 0.04 * 4.008918628686366, 0.16, 0.16], abs=1e-14)
+
+
+@pytest.mark.elsewhere
+def test_chebyshevs_crossed_linkage_runs_straight():
+    """Proportions 4, 5, 2, 5: at the middle and above both pivots the tracer is as high as the triangle 3, 4, 5."""
+    results = crankwork.analyse(crankwork.Description(crankwork.template("chebyshev")))
+    assert results["point_y_min.P"] == pytest.approx(0.16, abs=1e-12)
+    assert results.value("point_x.P", 0) == pytest.approx(0.08, abs=1e-3)
+
+
+@pytest.mark.elsewhere
+def test_watts_lever_passes_through_its_middle():
+    """With both levers level the coupler stands upright, its middle at half height."""
+    results = crankwork.analyse(crankwork.Description(crankwork.template("watt-straight-line")))
+    assert (results.value("point_x.P", 0), results.value("point_y.P", 0)) == pytest.approx((0.1, 0.04), abs=1e-12)
+    near = [results.value("point_x.P", angle) for angle in (0, 5)]
+    assert near[1] == pytest.approx(near[0], abs=1e-4)
+
+
+@pytest.mark.elsewhere
+def test_stroke_of_a_pumpjack():
+    """By intersections of circles over the turn: the end of the beam opposite to its bearing of the pitman."""
+    results = crankwork.analyse(crankwork.Description(crankwork.template("pumpjack")))
+    shaft, crank = complex(2.8, 3.1), 0.9 * np.exp(1j * np.linspace(0, 2 * np.pi, 200001))
+    bearing = np.array([_met(pin, 3.0, shaft, 2.4, complex(0.4, 3.0)) for pin in crank[::2000]])
+    head = shaft - 3.0 * (bearing - shaft) / 2.4
+    # the largest of 101 places lies below the extreme by less than the square of half a step
+    assert results["path_height.H"] == pytest.approx(float(np.ptp(head.imag)), rel=1e-3)
+    assert results["path_height.H"] >= np.ptp(head.imag)

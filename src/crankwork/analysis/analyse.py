@@ -158,6 +158,10 @@ def _analysed(
         from crankwork.analysis.stages import analyse_stages  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_stages(machine, machine.stages, grid)
+    if machine.rotor is not None:
+        from crankwork.analysis.rotor_balance import analyse_rotor  # noqa: PLC0415 - loaded where it is needed
+
+        return analyse_rotor(machine, machine.rotor, grid)
     if machine.transfer is not None:
         from crankwork.analysis.given_motion import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
@@ -180,8 +184,7 @@ def columns_only(machine: Machine) -> Results:
     Faster than `analyse`.
     """
     is_burning = machine.gas is not None and machine.gas.combustion is not None
-    has_mechanism = machine.transfer is None and machine.turning is None and machine.mechanism.crank.radius
-    if is_burning or not has_mechanism:
+    if is_burning or not machine.moves:
         return analyse(machine)
     engine = None if machine.method.is_exact else _engine_of(machine, machine.method)
     if engine is not None:

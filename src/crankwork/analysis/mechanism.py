@@ -80,6 +80,7 @@ from crankwork.quantities.key import key_of
 _DENSE_STEP = 1.0
 _NO_TRAVEL = 1e-12
 _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
+_EXTENT = {"point_x": "path_width", "point_y": "path_height"}
 _TURNING = ("link_angular_velocity", "link_angular_acceleration")
 # quantities without a sign, whose least value is of no use
 _SIZES = ("joint_force", "joint_force_with_friction", "friction_power", "gas_pressure", "shaking_force")
@@ -230,6 +231,8 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
     quality = {key: value for key, value in quality.items() if name is None or key_of(key).owner == name}
     pivoted = pivoted_links(machine.mechanism)
     followed = _followed(trace, pivoted, has_friction=moved.friction.is_free) | quality
+    measured = [f"{kind}.{point}" for point in machine.extents for kind in _EXTENT]
+    followed |= {key: trace[key] for key in measured if key in trace}
     notices = list[Notice]()
     start, end = (0.0, machine.cycle) if result is None else machine.working_range or open_range(result)
     ends = singular_ends(machine, None if result is None else (result.start, result.end))
@@ -403,8 +406,17 @@ def _summary(
         result["mean_torque"] = needed if needed.value >= 0 else (-needed).named("mean_torque")
     if is_whole:
         result |= {mean_value.key: mean_value for mean_value in mean_values(over)}
-    result |= gas_summary(solved)
+    result |= gas_summary(solved) | _extents(extremes)
     return {key: value if key == "mean_torque" else value.named(key) for key, value in result.items()}
+
+
+def _extents(extremes: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+    """Return width and height of the paths of points that are followed."""
+    ends = {key: key_of(key) for key in extremes if key.startswith(("point_x_max.", "point_y_max."))}
+    return {
+        f"{_EXTENT[end.quantity[:7]]}.{end.owner}": extremes[key] - extremes[key.replace("_max", "_min", 1)]
+        for key, end in ends.items()
+    }
 
 
 def _given_values(machine: Machine) -> dict[str, TracedValue]:

@@ -137,7 +137,10 @@ def _geometry(solved: PreparedCylinder) -> dict[str, TracedValue]:
         values["bottom_dead_centre_angle"] = bottom_dead_centre_angle(math.pi, e, l, r)
     of_cylinder = ("bore", "piston_area", "swept_volume", "clearance_volume", "compression_ratio")
     wanted = (*of_cylinder, "reciprocating_mass", "rotating_mass")
-    return values | {key: trace[key] for key in wanted if key in trace and not trace[key].is_absent}
+    values |= {key: trace[key] for key in wanted if key in trace and not trace[key].is_absent}
+    if solved.machine.rod_equivalent:
+        values |= {key: known for key, known in trace.items() if key.startswith("equivalent_") or key == "rod_inertia"}
+    return values
 
 
 def _motion(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:

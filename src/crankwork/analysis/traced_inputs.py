@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from crankwork.dynamics import masses as masses_of_rod
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.formula.expression import Value
@@ -205,11 +206,15 @@ def masses(
     yield from (small, big)
     if known.rod_inertia_excess:
         yield excess
+    if stated is not None and table == "rod":
+        yield from _equivalent(machine, total_mass, centre, length)
 
 
 def _centre(machine: Machine, length: Value, table: str) -> TracedValue:
     """Return the distance of the centre of mass of the rod from the crankpin."""
     share, centre = (_stated(machine, f"{table}.{key}") for key in ("small_end_share", "centre_of_mass"))
+    if share is None and centre is None and (swings := pendulum(machine, length)):
+        return swings[0]
     if share is not None:
         distance: TracedValue = given("small_end_share", share.value, f"{table}.small_end_share") * length
         return distance.named("rod_centre_distance")
@@ -220,15 +225,66 @@ def _excess(
     machine: Machine, rod: tuple[TracedValue, TracedValue, Value], excess: TracedValue, table: str
 ) -> TracedValue:
     mass, centre, length = rod
+    own = _own_inertia(machine, mass, length, table)
+    return excess if own is None else checked(rod_inertia_excess(own, mass, centre, length), excess)
+
+
+def _own_inertia(machine: Machine, mass: TracedValue, length: Value, table: str) -> TracedValue | None:
+    """Return the moment of inertia of the rod about its centre of mass, None if nothing tells it."""
     inertia, radius = (_stated(machine, f"{table}.{key}") for key in ("inertia", "radius_of_gyration"))
     if inertia is not None:
-        own = given("rod_inertia", inertia.value, f"{table}.inertia")
-    elif radius is not None:
-        gyration = given("rod_gyration_radius", radius.value, f"{table}.radius_of_gyration")
-        own = (mass * gyration * gyration).named("rod_inertia")
-    else:
-        return excess
-    return checked(rod_inertia_excess(own, mass, centre, length), excess)
+        return given("rod_inertia", inertia.value, f"{table}.inertia")
+    swings = pendulum(machine, length) if table == "rod" and radius is None else ()
+    if radius is None and not swings:
+        return None
+    gyration = (
+        swings[1] if radius is None else given("rod_gyration_radius", radius.value, f"{table}.radius_of_gyration")
+    )
+    return (mass * gyration * gyration).named("rod_inertia")
+
+
+def pendulum(machine: Machine, length: Value) -> tuple[TracedValue, ...]:
+    """Return centre of mass and radius of gyration of a rod that swung on either bore, nothing if it did not."""
+    keys = ("small_end_period", "big_end_period", "small_end_diameter", "big_end_diameter")
+    stated = [machine.stated.get(f"rod.pendulum.{key}") for key in keys]
+    if None in stated:
+        return ()
+    kinds = ("swing_period.small_end", "swing_period.big_end", "bore_diameter.small_end", "bore_diameter.big_end")
+    small, big, upper, lower = (
+        given(kind, number.value, f"rod.pendulum.{key}")
+        for kind, key, number in zip(kinds, keys, stated, strict=True)
+        if number is not None
+    )
+    method = machine.method
+    g = given("gravity", method.gravity, "method.gravity")
+    first, second = (
+        masses_of_rod.pendulum_length(method.pi, g, period).named(f"pendulum_length.{end}")
+        for end, period in (("small_end", small), ("big_end", big))
+    )
+    span = (length + (upper + lower) / 2).named("suspension_span")
+    distance = masses_of_rod.suspension_distance(first, second, span)
+    centre = (span - distance - lower / 2).named("rod_centre_distance")
+    return centre, masses_of_rod.pendulum_gyration(distance, first)
+
+
+def _equivalent(machine: Machine, mass: TracedValue, centre: TracedValue, length: Value) -> Iterator[TracedValue]:
+    """Yield the masses that replace the rod with its inertia, where they are asked for."""
+    count, inertia = machine.rod_equivalent, _own_inertia(machine, mass, length, "rod")
+    if not count or inertia is None:
+        return
+    if count == "two masses":
+        distance = masses_of_rod.equivalent_distance(inertia, mass, centre, length)
+        first = masses_of_rod.first_equivalent_mass(mass, centre, length, distance).named("equivalent_mass.small_end")
+        yield from (inertia, distance, first, (mass - first).named("equivalent_mass.other"))
+        return
+    ends = {"small_end": length - centre, "big_end": centre}
+    first, last = (
+        masses_of_rod.end_mass_of_three(inertia, arm.named(f"rod_centre_distance.{end}"), length).named(
+            f"equivalent_mass.{end}"
+        )
+        for end, arm in ends.items()
+    )
+    yield from (inertia, first, last, (mass - first - last).named("equivalent_mass.centre"))
 
 
 def _stated(machine: Machine, path: str) -> InputNumber | None:

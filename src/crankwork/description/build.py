@@ -10,7 +10,15 @@ from crankwork.description.measured_build import build_gas
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
-from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
+from crankwork.dynamics.masses import (
+    CrankGearMasses,
+    pendulum_gyration,
+    pendulum_length,
+    rod_big_end_mass,
+    rod_inertia_excess,
+    rod_small_end_mass,
+    suspension_distance,
+)
 from crankwork.errors import MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import piston_area
@@ -86,6 +94,7 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
         engine=engine,
         drive=drive,
         stated=stated,
+        rod_equivalent=rod["equivalent"] or "",
     )
 
 
@@ -231,8 +240,28 @@ def _masses(
                 reader.add_error(f"rod.{key}", ErrorMessage("only_beside", key="mass", advice='mass = "1 kg"'))
         small, big = (mass.get(("rod", key), 0.0) for key in rod_keys[1:])
         return CrankGearMasses(piston, small, big, crank)
+    if "pendulum" in rod and lengths and len(rod["pendulum"]) == len(rod["pendulum"].table.keys):
+        rod = _swung(rod, lengths[1], method, reader)
+    if "equivalent" in rod and not {"inertia", "radius_of_gyration", "pendulum"} & set(rod):
+        reader.add_error("rod.equivalent", ErrorMessage("equivalent_inertia"))
     ends = rod_masses(rod, mass["rod", "mass"], lengths[1], reader, "rod") if lengths else None
     return replace(ends, piston=piston, crank=crank) if ends else None
+
+
+def _swung(rod: Values, length: float, method: Method, reader: Reader) -> Values:
+    """Return a rod with the centre of mass and the radius of gyration that follow from its swinging."""
+    swings = rod["pendulum"]
+    first, second = (
+        pendulum_length(method.pi, method.gravity, swings.si(f"{end}_period")) for end in ("small_end", "big_end")
+    )
+    span = length + (swings.si("small_end_diameter") + swings.si("big_end_diameter")) / 2
+    distance = float(suspension_distance(first, second, span)) if first + second != 2 * span else math.nan
+    centre = span - distance - swings.si("big_end_diameter") / 2
+    if not (0 <= centre < length and 0 < distance < first):
+        reader.add_error("rod.pendulum", ErrorMessage("pendulum_open"))
+        return rod
+    sizes = {"centre_of_mass": centre, "radius_of_gyration": float(pendulum_gyration(distance, first))}
+    return rod.but(**{key: MeasuredValue(value, "length") for key, value in sizes.items()})
 
 
 def rod_masses(rod: Values, mass: float, length: float, reader: Reader, table: str) -> CrankGearMasses | None:

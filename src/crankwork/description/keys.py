@@ -153,6 +153,9 @@ _TURNING_SECTIONS = (
     "conclusion", "nomenclature", "sources",
 )  # fmt: skip
 _STAGES_SECTIONS = ("summary", "task", "stages", "comparison", "checks", "conclusion", "nomenclature", "sources")
+_ROTOR_SECTIONS = (
+    "summary", "task", "planes", "comparison", "checks", "conclusion", "nomenclature", "sources",
+)  # fmt: skip
 _WORDS = Text(300)
 _HEAD = (
     "title_en", "title_ru", "title_vi",
@@ -290,6 +293,7 @@ def document_key(sections: tuple[str, ...]) -> KeySpec:
 ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key(_LINKAGE_SECTIONS)
 TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
 STAGES_DOCUMENT = document_key(_STAGES_SECTIONS)
+ROTOR_DOCUMENT = document_key(_ROTOR_SECTIONS)
 
 
 def stated_document(values: Mapping[str, Any]) -> Document:
@@ -538,6 +542,11 @@ _CRANK = TableSpec("crank", {
 })  # fmt: skip
 
 _ENDS = ("small_end_mass", "big_end_mass")
+_PENDULUM = TableSpec("pendulum", {
+    **dict.fromkeys(("small_end_period", "big_end_period"), KeySpec(Quantity(("time",), 1e-3, 1e3), required=True)),
+    **dict.fromkeys(("small_end_diameter", "big_end_diameter"), KeySpec(LENGTH, required=True)),
+})  # fmt: skip
+_MEASURED_ROD = ("small_end_share", "centre_of_mass", "inertia", "radius_of_gyration")
 _ROD = TableSpec("rod", {
     "ratio": KeySpec(Number(1e-6, 1e6), required=True, instead_of=("length",)),
     "length": KeySpec(LENGTH, instead_of=("ratio",)),
@@ -549,6 +558,8 @@ _ROD = TableSpec("rod", {
     "big_end_mass": KeySpec(_MASS, instead_of=("mass", "small_end_share", "centre_of_mass")),
     "inertia": KeySpec(Quantity(("inertia",), 0.0, 1e6), instead_of=("radius_of_gyration",)),
     "radius_of_gyration": KeySpec(LENGTH, instead_of=("inertia",)),
+    "pendulum": KeySpec(_PENDULUM, instead_of=_MEASURED_ROD, only={"mass": ()}),
+    "equivalent": KeySpec(Choice(("two masses", "three masses")), only={"mass": ()}),
 })  # fmt: skip
 
 _PISTON = TableSpec("piston", {"mass": KeySpec(_MASS)})

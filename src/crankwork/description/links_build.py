@@ -114,6 +114,7 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
         redundant=redundant,
         friction=friction,
         bearings=bearings,
+        extents=_extents(values, linkage, reader),
         way=crank_range,
         notices=notices,
         chambers=chambers,
@@ -131,6 +132,16 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
     _check_method(machine, reader)
     moving = checked_motion(machine, crank, reader)
     return moving if moving is not None and _fits(moving, values, reader) else None
+
+
+def _extents(values: Values, linkage: Linkage, reader: Reader) -> tuple[str, ...]:
+    """Return the points whose paths are measured; report names of none."""
+    names = tuple(name for name in values["extents"] if name)
+    for number, name in enumerate(names, start=1):
+        if name not in linkage.owners:
+            known = ", ".join(sorted(linkage.owners))
+            reader.add_error(f"extents[{number}]", ErrorMessage("absent_point", name=name, known=known))
+    return names
 
 
 def _check_method(machine: Machine, reader: Reader) -> None:

@@ -1,4 +1,4 @@
-"""The keys of a file of a linkage, of transfer functions as a document prints them, or of a shaft with torques."""
+"""The keys of a file of a linkage, of transfer functions as a document prints them, of torques or masses on a shaft."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ from crankwork.description.keys import (
     NO_ANGLE,
     PIPED_VALVES,
     PRESSURES,
+    ROTOR_DOCUMENT,
     SHEET,
     SPEED,
     STAGES_DOCUMENT,
@@ -277,6 +278,7 @@ LINKAGE_FILE = TableSpec("file", {
     "sliders": KeySpec(MapOf(_SLIDER, most=300)),
     "branch": KeySpec(MapOf(Choice((1, -1)))),
     "positions": KeySpec(MapOf(_PLACE)),
+    "extents": KeySpec(ListOf(NAME, fewest=1, most=50)),
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
     "stages": KeySpec(_STAGES_OF_CHAMBERS),
@@ -405,6 +407,49 @@ _DIAGRAM = TableSpec("torque_diagram", {
     "scale": KeySpec(_SCALE),
     "cylinders": KeySpec(Number(1, 48, whole=True), instead_of=("delays",)),
     "delays": KeySpec(ListOf(_ANY_TURN, fewest=1, most=48), instead_of=("cylinders",)),
+})  # fmt: skip
+
+_REACH, _OWN_MASS = Quantity(("length",), -1e3, 1e3), Quantity(("mass",), 0.0, 1e6)
+_SECTOR = TableSpec("sector", {
+    "inner_radius": KeySpec(Quantity(("length",), 0.0, 100.0), required=True),
+    "outer_radius": KeySpec(_LENGTH.kind, required=True),
+    "width": KeySpec(_LENGTH.kind, required=True),
+    "density": KeySpec(Quantity(("density",), 1.0, 1e5), default="7850 kg/m3"),
+    "count": KeySpec(Number(1, 48, whole=True), default=1),
+    "angle": KeySpec(Quantity(("angle",), 0.0, math.pi, above=True)),
+})  # fmt: skip
+_PLANE_MASS = TableSpec("rotor_mass", {
+    "name": KeySpec(NAME),
+    "mass": KeySpec(_OWN_MASS, instead_of=("moment", "sector")),
+    "reciprocating": KeySpec(_OWN_MASS, default="0 kg", instead_of=("moment", "sector")),
+    "radius": KeySpec(_LENGTH.kind, instead_of=("moment", "sector")),
+    "moment": KeySpec(Quantity(("mass_moment",), 0.0, 1e6), instead_of=("mass", "reciprocating", "radius", "sector")),
+    "sector": KeySpec(_SECTOR, instead_of=("mass", "reciprocating", "radius", "moment")),
+    "angle": KeySpec(Quantity(("angle",), -4 * math.pi, 4 * math.pi)),
+    "position": KeySpec(_REACH),
+})  # fmt: skip
+_PISTONS = {"kind": ("reciprocating",)}
+ROTOR_FILE = TableSpec("file", {
+    **TITLE,
+    "document": ROTOR_DOCUMENT,
+    "crank": KeySpec(TableSpec("rotor_crank", {"speed": KeySpec(_SPEED)})),
+    "rotor": KeySpec(TableSpec("rotor", {
+        "kind": KeySpec(Choice(("rotating", "reciprocating")), default="rotating"),
+        "masses": KeySpec(ListOf(_PLANE_MASS, fewest=1, most=60), required=True),
+        "reciprocating_share": KeySpec(Number(0.0, 1.0), default=0.0, only={"kind": ("rotating",)}),
+        "rod_length": KeySpec(_LENGTH.kind, only=_PISTONS),
+        "reference": KeySpec(_REACH),
+        "bearings": KeySpec(ListOf(_REACH, fewest=2, most=2), only={"kind": ("rotating",)}),
+        "arrangement": KeySpec(Number(1, 100, whole=True), default=1),
+        "locomotive": KeySpec(TableSpec("locomotive", {
+            "speed": KeySpec(Quantity(("velocity",), 1e-3, 1e3), only={"wheel_diameter": ()}),
+            "wheel_diameter": KeySpec(_LENGTH.kind),
+            "wheel_load": KeySpec(Quantity(("force",), 0.0, 1e9, above=True)),
+            "coupled": KeySpec(Number(1, 12, whole=True), default=1),
+        })),
+    }), required=True),
+    "method": KeySpec(METHOD),
+    "table": KeySpec(TABLE),
 })  # fmt: skip
 
 TURNING_FILE = TableSpec("file", {

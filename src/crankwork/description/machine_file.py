@@ -34,6 +34,7 @@ from crankwork.description.links_keys import (
     GIVEN_MOTION_FILE,
     LINKAGE_FILE,
     PRESS_FILE,
+    ROTOR_FILE,
     STAGES_FILE,
     STARTED_FILE,
     TRANSFER_FILE,
@@ -60,7 +61,7 @@ _ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZE
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
 _LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
-FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE, STAGES_FILE)
+FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -173,7 +174,7 @@ def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
     """Return the keys that can never have an effect with the others, with the reason; none in files of format 1."""
     if values["format"] == 1:
         return {}
-    if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE, STAGES_FILE):
+    if keys in (*_TABULATED, TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE):
         return {f"method.{name}": ErrorMessage("idle_method") for name in METHOD.keys if name != "pi"}
     idle = dict[str, ErrorMessage]()
     if keys in _LINKAGES:
@@ -261,6 +262,10 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | 
         from crankwork.description.stages_build import build_compressor  # noqa: PLC0415 - loaded where it is needed
 
         return build_compressor(read_values, reader)
+    if keys is ROTOR_FILE:
+        from crankwork.description.rotor_build import build_rotor  # noqa: PLC0415 - loaded where it is needed
+
+        return build_rotor(read_values, reader)
     if keys in _LINKAGES:
         # an engine starts faster without these modules
         from crankwork.description.links_build import (  # noqa: PLC0415 - loaded where it is needed
@@ -300,6 +305,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return TRANSFER_FILE
     if isinstance(table := values.get("table"), dict) and "angles" in table and "rod" not in values:
         return GIVEN_MOTION_FILE
+    if "rotor" in values:
+        return ROTOR_FILE
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
     crank = values.get("crank")

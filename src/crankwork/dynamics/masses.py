@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from crankwork.formula.expression import Value, formula
 
 
@@ -23,6 +25,42 @@ def rod_big_end_mass(m: Value, m_1: Value) -> Value:
 def rod_inertia_excess(J_c: Value, m: Value, b: Value, l: Value) -> Value:  # noqa: E741
     """Moment of inertia of the rod less that of its two-mass model."""
     return J_c - m * b * (l - b)
+
+
+@formula("pendulum_length", "khurmi_gupta_2005, ch. 4")
+def pendulum_length(pi: Value, g: Value, T_p: Value) -> Value:
+    """Length of the simple pendulum that swings as a body does."""
+    return g * (T_p / (2 * pi)) ** 2
+
+
+@formula("suspension_distance", "khurmi_gupta_2005, ch. 15")
+def suspension_distance(L_p: Value, L_q: Value, D_p: Value) -> Value:
+    """Distance of the centre of mass from the first of two edges on which a rod swings."""
+    return D_p * (L_q - D_p) / (L_p + L_q - 2 * D_p)
+
+
+@formula("rod_gyration_radius", "khurmi_gupta_2005, ch. 4")
+def pendulum_gyration(h_s: Value, L_p: Value) -> Value:
+    """Radius of gyration of a body from its swinging."""
+    return np.sqrt(h_s * (L_p - h_s))
+
+
+@formula("equivalent_distance", "khurmi_gupta_2005, ch. 15")
+def equivalent_distance(J_c: Value, m: Value, b: Value, l: Value) -> Value:  # noqa: E741
+    """Distance of the second of two masses that have the inertia of the rod, the first at the piston pin."""
+    return J_c / (m * (l - b))
+
+
+@formula("equivalent_mass", "khurmi_gupta_2005, ch. 15")
+def first_equivalent_mass(m: Value, b: Value, l: Value, l_e: Value) -> Value:  # noqa: E741
+    """Mass at the piston pin, of two that have the inertia of the rod."""
+    return m * l_e / (l - b + l_e)
+
+
+@formula("equivalent_mass", "uicker_2011, ch. 14")
+def end_mass_of_three(J_c: Value, a_e: Value, l: Value) -> Value:  # noqa: E741
+    """Mass at one end, of three that have the inertia of the rod."""
+    return J_c / (a_e * l)
 
 
 @formula("reciprocating_mass", "kolchin_demidov_2008, ch. 7")

@@ -11,7 +11,23 @@ from crankwork.note import layout
 from crankwork.note.document import Block, Citation, Equation, Reference, Runs, Table
 from crankwork.note.equations import value_box
 from crankwork.note.material import Material
-from crankwork.note.parts import At, Head, Lines, Places, Section, Shown, Text, When, every, full, has, turning
+from crankwork.note.parts import (
+    At,
+    Head,
+    Lines,
+    Places,
+    Rows,
+    Section,
+    Shown,
+    Text,
+    When,
+    every,
+    full,
+    has,
+    machine_has,
+    turning,
+    works,
+)
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.note.tables import listing_table
 from crankwork.note.wording import in_display_unit, named
@@ -89,6 +105,14 @@ def _by_order(material: Material) -> Table | None:
 
 
 SECTIONS = (
+    Section("planes", (
+        Head("planes"), Text("planes", {"source": Citation("khurmi_gupta_2005, ch. 21")}), Lines("planes"),
+        Shown(("balance_polygons",), (Rows("planes", "planes"),)),
+        When(works("rotor_forces"), (
+            Head("rotor_forces", 2), Text("rotor_forces"), At("rotor_columns"), Lines("rotor_columns"),
+            Lines("rotor_forces"), Shown(("unbalanced",)),
+        )),
+    ), machine_has("rotor")),
     Section("balance", (
         Head("balance", sinks=True), Text("balance"), _worked,
         Shown(("balance_orders", "balance_ellipses"), (_by_order,)),

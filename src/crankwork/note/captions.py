@@ -54,6 +54,7 @@ _SAME = {
     "captions.total": "figures.total_torque",
     "captions.transmission_angles": "headings.transmission",
     "captions.energy_extremes": "tables.energy_extremes",
+    "captions.planes": "tables.planes",
     "captions.turning": "tables.turning",
     "captions.velocity": "quantities.piston_velocity",
     "columns.fuel": "report.fuel",

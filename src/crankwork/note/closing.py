@@ -45,6 +45,7 @@ _OF_LINKAGES = frozenset((
     "efficiency", "mean_efficiency", "motor_power", "standard_motor_power", "shaft_power",
     "driver_force_max", "driver_force_min",
     "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",
+    "plane_mass", "plane_angle", "tractive_effort_variation", "swaying_couple", "hammer_blow", "lifting_speed",
     "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
     "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
 ))  # fmt: skip
@@ -221,6 +222,7 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
     keys = [key for kind in numbers for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
+    keys = [key for key in summary if key != "speed"] if material.machine.rotor is not None else keys
     yield words.paragraph("see_table", tables=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.unmet:

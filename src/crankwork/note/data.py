@@ -492,6 +492,10 @@ SECTIONS = (
     ), has("piston_displacement")),
     Section("method", (Head("method"), _how), has("piston_displacement")),
     Section("task", (Head("task"), _shaft), machine_has("turning")),
+    Section("task", (
+        Head("task"),
+        Text("rotor_task", {"count": lambda material: str(len(material.results.listings["planes"].names))}),
+    ), machine_has("rotor")),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),
     Section("task", (Head("task"), _task, Text("linkage_computed"), _method, _SHEETS), machine_has("linkage")),

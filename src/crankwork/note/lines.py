@@ -149,6 +149,7 @@ _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torq
 
 _STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
 _POWER_OF_SHAFT = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
+_OF_STROKE = ("unbalanced_force_along", "unbalanced_force_across", "unbalanced_force", "unbalanced_couple")
 _MOTOR = ("shaft_power", "efficiency", "motor_power", "standard_motor_power", "motor_ratio.")
 _EXCESS = ("excess_work", "energy_fluctuation")
 _WHEEL_OF_SHAFT = ("speed_fluctuation", "whole_inertia", "flywheel_inertia", *WHEEL_SIZES, "recovery_torque")
@@ -166,6 +167,8 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
         groups = _of_piston(results, _DEGREES if degrees is None else degrees, force_degrees)
     elif results.machine.turning is not None:
         groups = _of_shaft(results)
+    elif results.machine.rotor is not None:
+        groups = _of_rotor(results)
     else:
         groups = _of_links(results, degrees)
     return tuple(group for group in groups if group.lines)
@@ -410,6 +413,15 @@ def _of_shaft(results: Results) -> Iterator[Group]:
     yield Group("energy_extremes", new.lines(_EXCESS if columns else ("kinetic_energy_change", *_EXCESS)))
     yield Group("flywheel", new.lines(_WHEEL_OF_SHAFT))
     yield new.group("shaft_course", columns)
+
+
+def _of_rotor(results: Results) -> Iterator[Group]:
+    """Yield the groups of lines of masses on a shaft: what balances them, and what is left."""
+    new, summary = _LineFilter(results, _DEGREES), results.summary
+    is_mass = {key: key.startswith(("plane_", "sector_")) for key in summary}
+    yield Group("planes", new.of(results.trace[key] for key in summary if is_mass[key]))
+    yield new.group("rotor_columns", _OF_STROKE)
+    yield Group("rotor_forces", new.of(results.trace[key] for key in summary if not is_mass[key]))
 
 
 class _LineFilter:

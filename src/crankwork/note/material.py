@@ -55,6 +55,9 @@ ESSENTIAL = frozenset((
     "side_force", "rod_force", "radial_force", "tangential_force", "crank_torque", "total_torque",
     "mean_total_torque", "mean_driving_torque", "mean_torque", "firing_interval", "crankpin_radial_force",
     "crankpin_tangential_force", "crankpin_load", "mean_crankpin_load", "main_journal_load", "bearing_pressure_max",
+    "plane_moment", "plane_moment_x", "plane_moment_y", "plane_angle", "plane_mass", "plane_radius", "sector_angle",
+    "unbalanced_force_along", "unbalanced_force_across", "unbalanced_couple", "tractive_effort_variation",
+    "swaying_couple", "reciprocating_moment", "hammer_blow", "lifting_rotation", "lifting_speed",
     "order_inertia_force", "free_force", "free_moment", "counterweight_moment", "excess_work", "flywheel_inertia",
     "speed_fluctuation", "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle",
     "link_angular_velocity", "link_angular_acceleration", "slider_displacement", "slider_velocity",
@@ -80,7 +83,7 @@ _MAIN_FIGURES = frozenset((
     "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
     "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan",
     "acceleration_plan", "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison",
-    "turning_moment", "driver", "chambers", "speed", "sliders",
+    "turning_moment", "driver", "chambers", "speed", "sliders", "balance_polygons", "unbalanced",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip

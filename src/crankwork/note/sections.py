@@ -63,9 +63,9 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 # sections in the order of a school; those that results have nothing for are left out
 _LINKAGE = (
-    "summary", "task", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics", "quality",
-    "chambers", "stages", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor",
-    "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources",
+    "summary", "task", "structure", "planes", "static", "dynamic", "driving", "moments", "energy", "kinematics",
+    "quality", "chambers", "stages", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics",
+    "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources",
     "appendix",
 )  # fmt: skip
 # sections of a linkage that the main course leaves out
@@ -177,6 +177,8 @@ def _titles(material: Material) -> tuple[str, str]:
         return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
     if material.machine.turning is not None:
         return words.title("turning"), "turning_subtitle"
+    if material.machine.rotor is not None:
+        return words.title("rotor"), "rotor_subtitle"
     return words.title("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
 
 

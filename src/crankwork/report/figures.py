@@ -47,6 +47,7 @@ from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of, quanti
 from crankwork.report.motion import brix, centrodes, curved_paths, has_centrodes, kinematics, path_figure, tolle
 from crankwork.report.plans import acceleration_plan, velocity_plan
 from crankwork.report.positions import position_plans
+from crankwork.report.rotor import balance_polygons, has_polygons
 from crankwork.report.tables import any_nonzero
 from crankwork.report.torque import (
     accumulated_torque,
@@ -211,6 +212,13 @@ def _paths(machine: Drawn) -> Iterable[Construction]:
 def _driver(machine: Drawn) -> list[Sequence[str]]:
     """Return coordinate and rates of the driver, its force or torque, its power."""
     return [(key,) for key in machine.reached.columns if key.startswith("driver_")] if machine.style.period else []
+
+
+def _unbalanced(machine: Drawn) -> list[Sequence[str]]:
+    """Return the forces and the couple of what moves along the line of stroke."""
+    columns = machine.results.columns
+    forces = [key for key in columns if key.startswith("unbalanced_force")]
+    return [forces, *[("unbalanced_couple",)] * ("unbalanced_couple" in columns)] if forces else []
 
 
 def _inertia(machine: Drawn) -> list[Sequence[str]]:
@@ -406,6 +414,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("phase_stars", phase_stars, _many),
     Diagram("balance_orders", balance_orders, every(_engine, lambda machine: "inertia_force" in machine.columns)),
     Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(curved_loci(machine)))),
+    Diagram("balance_polygons", balance_polygons, has_polygons),
+    Curves("unbalanced", _unbalanced, "subjects.balance"),
     Construction("transient", _transient, every(_drawn, has("transient"))),
     Construction("speed", speed_curve, _speed),
     Construction("wittenbauer", wittenbauer, every(_drawn, has_energy_mass_diagram)),

@@ -226,7 +226,7 @@ class Drawn:
     def style(self) -> Style:
         """How its figures are written."""
         results, machine = self.results, self.results.machine
-        if machine.turning is not None:
+        if machine.turning is not None or machine.rotor is not None:
             return Style(self.language, turns="shaft")
         if machine.linkage is None:
             return Style(self.language, period=results.period)
@@ -239,6 +239,9 @@ class Drawn:
     def reached(self) -> Reached:
         """Its columns at close angles as far as links reach, between its dead positions; of a table at its rows."""
         results = self.results
+        if results.machine.rotor is not None:
+            degrees = np.arange(361.0)
+            return Reached(degrees, results.columns_at(degrees), 0, is_whole=True)
         if results.machine.linkage is None:
             columns = without_rounding(results.columns, results.machine.speed)
             return Reached(*_closed(results.grid.degrees, columns, results.machine.cycle), 0, is_whole=True)

@@ -200,6 +200,9 @@ def _headline(machine: Machine, summary: Mapping[str, float], language: Language
         lines.append(translate("check.table", language, bodies=bodies, positions=positions))
     if machine.turning is not None:
         lines.append(translate("check.turning", language, cycle=f"{machine.cycle:g}"))
+    if machine.rotor is not None:
+        planes = translate(f"check.{'one_plane' if machine.rotor.is_flat else 'several_planes'}", language)
+        lines.append(translate("check.rotor", language, count=len(machine.rotor.masses), planes=planes))
     if machine.linkage is not None:
         lines += _drawing_lines(machine, language)
     if machine.chambers:
