@@ -90,7 +90,7 @@ def _by_order(material: Material) -> Table | None:
 
 SECTIONS = (
     Section("balance", (
-        Head("balance", sinks=True), Text("balance"), _worked,
+        Head("balance"), Text("balance"), _worked,
         Shown(("balance_orders", "balance_ellipses"), (_by_order,)),
     ), has("piston_displacement", "balance")),
     Section("balance", (

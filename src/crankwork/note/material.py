@@ -88,7 +88,7 @@ _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "c
 _SMALL = frozenset((
     "indicator", "pressure", "kinematics", "tolle", "piston_forces", "rod_forces", "crankpin_forces", "torque",
     "crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar", "crankpin_wear", "balance_orders",
-    "excess_work",
+    "excess_work", "wittenbauer", "brix",
 ))  # fmt: skip
 # those that are large enough where nothing stands beside them either
 _ROUND = frozenset(("crankpin_wear",))
@@ -340,7 +340,11 @@ class Material:
         degrees = self.groups[group].degrees if group in self.groups else None
         if degrees is not None:
             key = "worked_time" if self.words.period else "worked_at" if self.has_piston else "worked_position"
-            yield self.words.paragraph(key, value=self.words.place_text(degrees))
+            sentence = self.words.sentence(key, value=self.words.place_text(degrees))
+            if key == "worked_at" and ("row", degrees) not in self._shown and degrees in self.results.grid.degrees:
+                self._shown.add(("row", degrees))
+                sentence += (" ", *self.words.sentence("worked_row"))
+            yield Paragraph(sentence)
 
     def nonzero(self, *kinds: str) -> list[str]:
         """Return the columns of some kinds that are not zero throughout."""

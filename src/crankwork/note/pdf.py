@@ -30,6 +30,7 @@ from crankwork.note.document import (
     Paragraph,
     Run,
     Runs,
+    Strong,
     Table,
     TitlePage,
     side_by_side,
@@ -85,6 +86,8 @@ _SETTINGS = """
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
   grid(row-gutter: 0.75em, align: center, ..all.pos()), number,
 ))
+#show figure.caption: set text(hyphenate: false)
+#show figure.caption: set par(justify: false)
 #let drawing(body, words) = block(breakable: false, width: 100%, above: 1.2em, below: 1.2em, figure(
   body, caption: words, numbering: none, supplement: none, kind: "drawing",
 ))
@@ -102,8 +105,9 @@ _SETTINGS = """
 #let again(count, words) = (
   table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
 )
-#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, words)
-#let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { words; v(-16pt) })
+#let named(words) = { set text(hyphenate: false); set par(justify: false); words }
+#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, named(words))
+#let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { named(words); v(-16pt) })
 """
 # one page of any height, on which positions show how high everything is, within a share
 _ENDLESS = "#set page(width: 210mm, height: auto)\n"
@@ -259,6 +263,8 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
+        if not isinstance(row[0], Strong)
+        else ", ".join(f"strong({typst_string(str(cell))})" for cell in row)
         for row in block.rows
     )
     again = "" if is_kept else f"..again({count}, {typst_string(continued(number, numbers.language))}), "

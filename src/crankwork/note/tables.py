@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from crankwork.analysis import Array
 from crankwork.analysis.results import Listing
 from crankwork.locale import has_text
-from crankwork.note.document import Block, Cell, Math, Run, Runs, Table
+from crankwork.note.document import Block, Cell, Math, Run, Runs, Strong, Table
 from crankwork.note.material import Material
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
@@ -68,20 +68,38 @@ def long_table(
 ) -> Table | None:
     """Return a table over the crank angle with one row for each, to the angle `until` [deg]."""
     words, degrees = material.words, material.results.grid.degrees
-    rows = short_rows(material, until=until)
+    known = [key for key in keys if key in material.columns]
+    worked = np.abs(degrees - _worked(material, known, until)) < _NEAR
+    rows = short_rows(material, until=until) | (worked & (degrees <= until + _NEAR))
     columns = [
-        quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key))
-        for key in keys
-        if key in material.columns
+        quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key)) for key in known
     ]
     if not columns:
         return None
     angles = [words.number(float(angle)) for angle in degrees[rows]]
-    return column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
+    table = column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
+    marked = worked[rows].tolist()
+    return replace(
+        table, rows=[tuple(map(Strong, row)) if mark else row for mark, row in zip(marked, table.rows, strict=True)]
+    )
+
+
+def _worked(material: Material, keys: Sequence[str], until: float) -> float:
+    """Return the angle at which the note works most of some columns, none that it works: no number. [deg]"""
+    shares = [
+        (len({line.key for line in group.lines} & {*keys}), group.degrees)
+        for group in material.groups.values()
+        if group.degrees is not None
+    ]
+    share, worked = max(shares, default=(0, math.nan))
+    if not share:
+        return math.nan
+    # what repeats is worked at one of its repetitions
+    return worked if math.isinf(until) else worked % until
 
 
 def short_rows(material: Material, *, until: float = math.inf) -> NDArray[np.bool]:
-    """Return which rows a table over the crank angle has in this note."""
+    """Return which rows a table over the crank angle has in this note, without that of the angle that is worked."""
     degrees = material.results.grid.degrees
     rows = degrees <= until + _NEAR
     if material.full or rows.sum() <= _FEW:

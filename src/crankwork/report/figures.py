@@ -408,7 +408,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(curved_loci(machine)))),
     Construction("transient", _transient, every(_drawn, has("transient"))),
     Construction("speed", speed_curve, _speed),
-    Construction("wittenbauer", wittenbauer, every(_drawn, has_energy_mass_diagram)),
+    Construction("wittenbauer", wittenbauer, lambda machine: (_drawn(machine) or _engine(machine))
+                 and has_energy_mass_diagram(machine)),
     Construction("comparison", _compared, _has_compared),
 )  # fmt: skip
 
