@@ -128,6 +128,7 @@ class Table:
     align: str = ""
     label: str = ""
     half: bool = False
+    defined: tuple[tuple[str, str], ...] = ()  # Symbols of headings that no equation explains, and their meanings
 
     def __post_init__(self) -> None:
         count = len(self.headings)

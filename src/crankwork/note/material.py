@@ -70,11 +70,6 @@ _OF_ROD = ("rod_small_end_mass", "rod_big_end_mass", "rod_centre_distance")
 _LOWER = 0.62
 # significant digits of the values of a note that does not show all
 _DIGITS = 4
-# sentences that refer to one of a kind, and to several
-_SEE = {
-    "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
-    "figure": ("see_figure", "see_figures"),
-}  # fmt: skip
 # figures of a note that does not show all, and those that a school adds to them
 _MAIN_FIGURES = frozenset((
     "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
@@ -368,23 +363,27 @@ class Material:
             # of crankpins that differ the first
             firsts = {kind_of(name): name for name in reversed(drawn)}
             drawn = [name for name in drawn if kind_of(name) not in _OF_CRANKPINS or name in firsts.values()]
-        labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
+        labels: dict[str, list[str]] = {"tables": [table.label for table in shown_tables if table.label]}
         for name in drawn:
-            labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
-        sentences: list[Run] = []
-        for kind, shown in labels.items():
-            if shown:
-                what = "tables" if kind == "table" else "figures"
-                sentence = self.words.sentence(_SEE[kind][len(shown) > 1], **{what: listed(shown)})
-                sentences += [" ", *sentence] if sentences else sentence
-        if sentences:
-            yield Paragraph(tuple(sentences))
+            is_alone = name in _CONSTRUCTED and not labels["tables"]
+            labels.setdefault("constructions" if is_alone else "figures", []).append(f"f:{name}")
+        told = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
+        if {"tables", "figures"} <= told.keys():
+            yield self.words.paragraph("see_both", **told)
+        elif told:
+            sentences = [run for what in told for run in (" ", *self.words.sentence(f"see_{what}", **told))]
+            yield Paragraph(tuple(sentences[1:]))
         for row in self._rows(drawn, shown_tables):
             yield from row
             for name in (block.name for block in row if isinstance(block, Figure)):
                 read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
                 if read is not None:
                     yield read
+
+    def _reference(self, what: str, labels: list[str]) -> Runs:
+        """Return how a sentence names tables or figures: `figures 3, 4`."""
+        kind = "table" if what == "tables" else "figure"
+        return self.words.sentence(f"{kind}{'s' * (len(labels) > 1)}_named", **{f"{kind}s": listed(labels)})
 
     def _rows(self, names: Sequence[str], tables: Sequence[Table]) -> Iterator[tuple[Figure | Table, ...]]:
         """Yield figures and tables, small ones in pairs side by side."""

@@ -328,6 +328,7 @@ def _breakable(text: str) -> str:
 
 def _title_page(page: TitlePage, note: Note) -> str:
     """Return the cover: whose it is at the head, the title in the middle, people below, place and year at the foot."""
+    headline = note.headline.replace(" × ", "\u00a0×\u00a0")
     small = 0.62 if page.is_crowded else 0.8 if page.is_plain else 1.0
 
     def lines(texts: tuple[str, ...], size: float, weight: int = 400) -> str:
@@ -336,7 +337,7 @@ def _title_page(page: TitlePage, note: Note) -> str:
 
     if page.is_plain:
         people_line = tuple(", ".join(person.names) for person in page.people)
-        title = f"{lines((note.headline,), 20, 700)}{lines(page.below, 14)}{lines(people_line, 14)}"
+        title = f"{lines((headline,), 20, 700)}{lines(page.below, 14)}{lines(people_line, 14)}"
         return f"#align(center, block(below: 1.6em)[#set par(justify: false)\n{title}])"
     # the strokes of signatures stand under names that are written by hand
     sign = "box(width: 32mm, height: 0.9em, stroke: (bottom: 0.4pt))"
@@ -348,7 +349,7 @@ def _title_page(page: TitlePage, note: Note) -> str:
     columns = "(auto, auto, 1fr)" if any(person.signs for person in page.people) else "(auto, 0pt, auto)"
     grid = f"grid(columns: {columns}, column-gutter: 0.7em, row-gutter: 0.9em, align: left + bottom, {people})"
     body = (
-        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((note.headline,), 20, 700)}"
+        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((headline,), 20, 700)}"
         f"#v(0.8em)\n{lines(page.below, 14)}#v(1fr)\n"
     )
     if people:

@@ -159,7 +159,8 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
             columns.append(Column(words.titled(key), entries))
         elif not (listing.names and material.has_piston) or np.any(np.nan_to_num(values[rows])):
             columns.append(quantity_column(material, key, values[rows] if listing.names else values))
-    return column_table(caption, columns, words, "l" if listing.names else "c")
+    explained = tuple((words.symbol(key), label(key, words.language)) for key in listing.columns)
+    return replace(column_table(caption, columns, words, "l" if listing.names else "c"), defined=explained)
 
 
 def _are_equal_rows(listing: Listing, row: int, other: int) -> bool:
@@ -192,12 +193,13 @@ def symbol_table(meanings: Sequence[tuple[Cell, str]], words: Words) -> Table:
 
 
 def value_row(key: str, value: float, words: Words, *, area: float | None = None, digits: int = 6) -> tuple[Cell, ...]:
-    """Return name, symbol, value and unit of a single value."""
+    """Return name, symbol, value and unit of a single value; a name may end in the unit of what is stored in it."""
+    name, celsius, _ = label(key, words.language).partition(", °C")
     return (
-        label(key, words.language),
+        name,
         Math(words.symbol(key)),
         words.number(displayed(key, value, per_area=area), digits=min(digits, words.digits) if area else digits),
-        printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
+        celsius.removeprefix(", ") or printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
     )
 
 
