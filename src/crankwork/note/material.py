@@ -22,6 +22,7 @@ from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.per_area import with_area
 from crankwork.note.readings import reading
 from crankwork.note.table_width import is_narrow
 from crankwork.note.wording import Words, named
@@ -300,8 +301,11 @@ class Material:
             has_definition = self.has_piston and (not again or line.key == "excess_work.exact")
             defined = line.key if isinstance(line, ValueLine) and has_definition else ""
             area = self.area(line.key) or 0.0
+            step: Line = line
+            if self.per_area and not area and isinstance(line, FormulaLine):
+                step = with_area(line, self.summary["piston_area"])
             symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
-            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area, digits=self.digits))
+            blocks.append(Equation(step, symbol=symbol, defined=defined, area=area, digits=self.digits))
             self._keys.add(line.key)
             self._formulas.add(_formula_name(line))
         return blocks

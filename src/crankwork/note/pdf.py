@@ -72,7 +72,7 @@ _SETTINGS = """
 #show heading.where(level: 1): set text(size: 14pt)
 #show heading.where(level: 2): set text(size: 12pt)
 #show heading.where(level: 3): set text(size: 11pt)
-#set table(inset: (x: 4pt, y: 2.6pt))
+#set table(inset: (x: 4pt, y: 2.3pt))
 #let ruled(head) = (_, y) => if y == head {
   (top: 0.7pt + black, bottom: 0.5pt + black)
 } else if y > head { (bottom: 0.3pt + luma(70%)) }
@@ -81,10 +81,10 @@ _SETTINGS = """
   let wide = measure(line).width
   if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
 })
-#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.7em, below: 0.7em, grid(
+#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.6em, below: 0.6em, grid(
   columns: (1fr, auto), column-gutter: 0.8em,
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
-  grid(row-gutter: 0.75em, align: center, ..all.pos()), number,
+  grid(row-gutter: 0.65em, align: center, ..all.pos()), number,
 ))
 #show figure.caption: set text(hyphenate: false)
 #show figure.caption: set par(justify: false)
@@ -125,7 +125,7 @@ _SURELY_FITS, _LETTER = 33.5, 0.5
 # columns of a table whose parts stand side by side
 _SEVERAL_PARTS = 8
 # height of a line of a table [em], and what is free above and below it [pt]
-_LINE, _INSET = 0.66, 2.6
+_LINE, _INSET = 0.66, 2.3
 # a word that may be wider than a column of the cover
 _LONG_WORD = re.compile(r"\S{28,}")
 _ALIGN = {"l": "left", "c": "center", "r": "right"}

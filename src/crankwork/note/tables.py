@@ -153,13 +153,17 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
         ] or rows
     if listing.names:
         columns.append(Column((words.column("row"),), [_row_text(listing.names[k], words) for k in rows]))
+    shown = list[str]()
     for key, values in listing.columns.items():
         if not columns:
             entries = [words.number(value) for value in material.shown(key, values).tolist()]
             columns.append(Column(words.titled(key), entries))
         elif not (listing.names and material.has_piston) or np.any(np.nan_to_num(values[rows])):
             columns.append(quantity_column(material, key, values[rows] if listing.names else values))
-    explained = tuple((words.symbol(key), label(key, words.language)) for key in listing.columns)
+            shown.append(key)
+    symbols = {words.symbol(key): label(key, words.language) for key in shown}
+    symbols.pop(words.symbol("crank_angle"), None)
+    explained = tuple(symbols.items())
     return replace(column_table(caption, columns, words, "l" if listing.names else "c"), defined=explained)
 
 
