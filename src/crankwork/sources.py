@@ -19,6 +19,8 @@ _MOTION, _WORK = ("piston_velocity", "piston_acceleration"), ("work_per_cycle", 
 _BALANCE = ("order_inertia_force", "free_force", "counterweight_moment")
 _SCHOOLS: Mapping[str, Mapping[str, str]] = MappingProxyType({
     "en": {
+        # its translation has the same chapters
+        **{f"kolchin_demidov_2008, ch. {chapter}": f"kolchin_demidov_1984, ch. {chapter}" for chapter in range(1, 10)},
         "kolchin_demidov_2008, ch. 5": "heywood_1988, ch. 2",
         "kolchin_demidov_2008, ch. 6": "norton_2012, ch. 13",
         "kolchin_demidov_2008, ch. 7": "norton_2012, ch. 13",

@@ -15,7 +15,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import ProcessForce
-from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
+from crankwork.shaft.flywheel import slope_largest, slope_least
 
 _STEP = 0.5
 # behind a corner of the pressure, where there may be a jump
@@ -166,10 +166,10 @@ def tangents(inertia: Array, energy: Array, wanted: Fluctuation) -> Tangents:
 
     `inertia` and `energy`: reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
 
-    tan psi = w^2 (1 +- delta) / 2; the upper tangent touches the curve from above, the lower one from below.
+    tan psi = w^2 (1 +- delta / 2)^2 / 2; the upper tangent touches the curve from above, the lower one from below.
     """
-    high = float(wittenbauer_slope_largest(wanted.mean, wanted.delta))
-    low = float(wittenbauer_slope_least(wanted.mean, wanted.delta))
+    high = float(slope_largest(wanted.mean, wanted.delta))
+    low = float(slope_least(wanted.mean, wanted.delta))
     above, below = energy - high * inertia, energy - low * inertia
     i, j = int(np.argmax(above)), int(np.argmin(below))
     return Tangents(high, low, float(above[i]), float(below[j]), i, j)

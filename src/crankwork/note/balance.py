@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from crankwork.formula.calculation_lines import ValueLine
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, in_order
 from crankwork.mechanism.mechanism import Crank
@@ -34,6 +36,8 @@ from crankwork.note.wording import in_display_unit, named
 from crankwork.quantities.key import key_of
 
 _BALANCE = "den_hartog_1956, ch. 5"
+# share of the largest force below which one is not seen beside it
+_SEEN = 0.05
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _OF_ORDERS = (
     "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force", "moment_factor", "free_moment",
@@ -104,6 +108,15 @@ def _by_order(material: Material) -> Table | None:
     return listing_table(material, "balance", "balance" if material.has_free_moments else "balance_forces")
 
 
+def _drawn_orders(material: Material) -> Iterator[Block]:
+    """Yield the free forces, drawn where those of several orders are seen."""
+    sizes = [np.abs(np.nan_to_num(values)) for key, values in material.results.listings["balance"].columns.items()
+             if key in ("free_force", "free_moment")]  # fmt: skip
+    seen = sum(int(np.sum(size > _SEEN * size.max())) for size in sizes)
+    figures = ("balance_orders", "balance_ellipses") if material.full or seen > 1 else ()
+    return material.presented([_by_order(material)], figures)
+
+
 SECTIONS = (
     Section("planes", (
         Head("planes"), Text("planes", {"source": Citation("khurmi_gupta_2005, ch. 21")}), Lines("planes"),
@@ -114,8 +127,8 @@ SECTIONS = (
         )),
     ), machine_has("rotor")),
     Section("balance", (
-        Head("balance", sinks=True), Text("balance"), _worked,
-        Shown(("balance_orders", "balance_ellipses"), (_by_order,)),
+        Head("balance"), Text("balance"), _worked,
+        _drawn_orders,
     ), has("piston_displacement", "balance")),
     Section("balance", (
         Head("linkage_balance"), Text("shaking", {"source": Citation(_BALANCE)}), At("shaking"), Lines("shaking"),

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from crankwork.note.document import Block, Citation, Math, Runs
+from crankwork.formula.calculation_lines import FormulaLine
+from crankwork.formula.expression import Operation, Symbol
+from crankwork.note.document import Block, Citation, Equation, Math, Reference, Runs, Strong
+from crankwork.note.layout import EQUALS, MINUS, SPACE, Digits, PrintedEquation, Sign, Upright, row
 from crankwork.note.lines import first_articulated
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -31,9 +35,11 @@ from crankwork.note.parts import (
     lacks,
     turning,
 )
+from crankwork.note.symbols import symbol_box
 from crankwork.note.wording import named
 from crankwork.quantities.key import key_of
 
+_MAINS = "kolchin_demidov_2008, ch. 7"
 _SOURCE = "kolchin_demidov_2008, ch. 9"
 _ON_CRANKPIN = (
     "big_end_inertia_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load",
@@ -42,7 +48,6 @@ _STATISTICS = (
     "mean_crankpin_load", "bearing_load_ratio", "bearing_pressure", "bearing_pressure_max", "reversal_duration",
     "reversal_ratio",
 )  # fmt: skip
-_ON_ROD = ("big_end_load", "piston_pin_force", "small_end_load")
 _ON_MAINS = (
     "shaft_unbalance", "unbalance_force", "unbalance_weight", "unbalance_tangential_force", "journal_share",
     "main_journal_load",
@@ -65,10 +70,65 @@ def _is_same(material: Material) -> bool:
     return {pin, "big_end_load"} <= columns.keys() and np.allclose(columns[pin], columns["big_end_load"])
 
 
-def _components(material: Material) -> Iterator[Block]:
-    """Yield the components of the load on the first main journal, sums over the throws beside it."""
-    lines = material.lines("bearings", "bearing_force_x", "bearing_force_y")
-    yield from () if material.full else material.worked(line for line in lines if line.key.endswith("main_journal.1"))
+def _on_big_end(material: Material) -> Iterator[Block]:
+    """Yield the load of the big end along the rod and across it, turned by the crank angle and that of the rod."""
+    for line in material.lines("bearings", "bearing_force_x", "bearing_force_y"):
+        if (
+            key_of(line.key).owner != "big_end"
+            or not isinstance(line, FormulaLine)
+            or len(line.named) != len(("along", "across"))
+        ):
+            continue
+        (radial, _), (tangential, _) = line.named
+        cosine, sine = Symbol("cos_phi_beta"), Symbol("sin_phi_beta")
+        first, second, join = (
+            (cosine, sine, operator.add) if line.key.startswith("bearing_force_x") else (sine, cosine, operator.sub)
+        )
+        along, across = (
+            Operation(operator.mul, (Symbol(name), factor)) for name, factor in ((radial, first), (tangential, second))
+        )
+        values = {**line.values, "cos_phi_beta": line.values["cos_psi"], "sin_phi_beta": line.values["sin_psi"]}
+        yield from material.worked([line._replace(tree=Operation(join, (along, across)), values=values)])
+    yield from material.worked(material.lines("bearings", "big_end_load"), again=True)
+
+
+def _on_journal(material: Material) -> Iterator[Block]:
+    """Yield the forces on the throws beside a main journal with their shares, and the load that they add up to."""
+    words, values = material.words, {line.key: line.value for line in material.lines("bearings")}
+    loads = [key for key in values if key.startswith("main_journal_load.")]
+    # the first one between two throws
+    owner = f"main_journal.{key_of(loads[min(1, len(loads) - 1)]).owner}"
+    axes = ("bearing_force_x", "bearing_force_y")
+    parts = [key.partition(f".{owner}.")[2] for key in values if key.startswith(f"{axes[0]}.{owner}.")]
+    forces = [[values.get(f"{axis}.{part}", 0.0) for part in parts] for axis in axes]
+    held = [[*(values[f"{axis}.{owner}.{part}"] for part in parts), values[f"{axis}.{owner}"]] for axis in axes]
+    along = [max(range(len(axes)), key=lambda axis: abs(forces[axis][k])) for k in range(len(parts))]
+    shares = [-held[axis][k] / (forces[axis][k] or 1.0) for k, axis in enumerate(along)]
+    kinds = [part if part.partition(".")[2] else f"rod.{part}" for part in parts]
+    names = [words.phrase(f"acts_{kind}", number=number) for kind, _, number in (kind.partition(".") for kind in kinds)]
+    columns = [
+        [*names, words.column("total")],
+        [*(words.number(share, digits=4) for share in shares), ""],
+        *([*words.column_texts(material.shown(axis, np.array(each)).tolist(), digits=4), ""]
+          for axis, each in zip(axes, forces, strict=True)),
+        *(words.column_texts(material.shown(axis, np.array(each)).tolist(), digits=4)
+          for axis, each in zip(axes, held, strict=True)),
+    ]  # fmt: skip
+    share, unit = words.symbol("journal_share"), words.unit(axes[0])
+    of_axes = [words.symbol(axis) for axis in axes]
+    titles: list[str | Runs] = ["row", (Math(share),), *(words.titled(axis) for axis in axes)]
+    titles += [("−", Math(share), " ", Math(symbol), f", {unit}") for symbol in of_axes]
+    *rows, last = zip(*columns, strict=True)
+    number = key_of(owner).owner
+    yield words.paragraph("on_journal", number=number, table=Reference("t:on_journal"))
+    yield words.table("on_journal", titles, [*rows, tuple(map(Strong, last))], "lrrrrr", "t:on_journal")
+    sums = [line for line in material.lines("bearings") if line.key in (f"{axis}.{owner}" for axis in axes)]
+    for symbol, line, value in zip(of_axes, sums, (column[-1] for column in columns[-2:]), strict=True):
+        total = row(symbol_box(words.symbol(line.key)), EQUALS, MINUS, Sign("Σ"), symbol_box(share), SPACE,
+                    symbol_box(symbol), EQUALS, *([MINUS] if value.startswith("−") else []),
+                    Digits(value.lstrip("−")), SPACE, Upright(unit))  # fmt: skip
+        yield Equation(line, printed=PrintedEquation((total,), words.symbol(line.key)))
+    yield from material.worked(material.lines("bearings", "main_journal_load")[int(number) - 1 :][:1])
 
 
 def _has_pin(material: Material) -> bool:
@@ -118,7 +178,9 @@ _PIN: tuple[Part, ...] = (
     Lines("bearings", _ON_CRANKPIN),
 )  # fmt: skip
 _STATED = Lines("bearing_loads", _STATISTICS, intro="loads", first=True)
-_OF_ROD = Lines("bearings", _ON_ROD)
+_OF_ROD: tuple[Part, ...] = (
+    Lines("bearings", ("big_end_load",)), Lines("bearings", ("piston_pin_force", "small_end_load"), intro="small_end"),
+)  # fmt: skip
 _LOADS, _OF_WEAR = Rows("bearing_loads", "loads"), Rows("crankpin_wear", "crankpin_wear")
 _WEAR: tuple[Part, ...] = (
     _oil_hole, Shown(("crankpin_wear",), (in_full(_OF_WEAR),)),
@@ -126,7 +188,7 @@ _WEAR: tuple[Part, ...] = (
 SECTIONS = (
     # polar, unrolled and wear in one
     Section("crankpin", (
-        Head("crankpin"), *_PIN, _OF_ROD, _STATED,
+        Head("crankpin"), *_PIN, *_OF_ROD, _STATED,
         When(lacks(full), (_oil_hole,)),
         Shown((), (_LOADS,)),
         Shown(("crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar"),
@@ -138,16 +200,21 @@ SECTIONS = (
     ), _has_pin),
     Section("unrolled", (Head("unrolled"), _STATED, Shown(("crankpin_load",), (_LOADS,))), _has_pin),
     Section("big_end", (
-        Head("big_end"), Text("big_end"), At("bearings"), _OF_ROD,
+        Head("big_end"), Text("big_end"), At("bearings"), _on_big_end, *_OF_ROD,
         Shown(("big_end_polar", "small_end_polar"), (Over("rods", ("big_end_load", "small_end_load")),)),
     ), has("piston_displacement", "big_end_load")),
     Section("wear", (Head("wear"), *_WEAR), has("piston_displacement", "crankpin_wear")),
     # main journals, and the torque along the shaft
     Section("mains", (
-        Head("mains", sinks=True), Text("mains"), At("bearings"), _components, Lines("bearings", _ON_MAINS),
+        Head("mains"), Text("mains", {"source": Citation(_MAINS)}), At("bearings"), _on_journal,
+        When(full, (Lines("bearings", _ON_MAINS),)),
         Shown(("main_journal_polar",), (Over("mains", _group("main_journals")),)),
         When(full, (
             Shown(("main_wear",), (Rows("main_wear", "main_wear"),)), Lines("engine_torque"),
+            When(
+                lambda material: bool(material.results.groups.get("accumulated_torque")),
+                (Head("accumulated", 2), Text("accumulated")),
+            ),
             Shown(("accumulated_torque",), (Over("accumulated", _group("accumulated_torque")),)),
         )),
     ), lambda material: material.has_piston and material.has_engine and material.has("main_journals")),

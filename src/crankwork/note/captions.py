@@ -19,6 +19,7 @@ _SAME = {
     "headings.machine": "subjects.machine",
     "headings.method": "report.method",
     "headings.reactions": "tables.joint_forces",
+    "headings.accumulated": "tables.accumulated_torque",
     "headings.static": "quantities.static_torque",
     "headings.turning_moments": "figures.turning_moment",
     "headings.energy_extremes": "tables.energy_extremes",

@@ -10,12 +10,11 @@ import numpy as np
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
-from crankwork.note import balance, bearings
 from crankwork.note.data import GEAR, cycle_keys, link_lengths
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Section, Shown, drawn, every, full, has, written
+from crankwork.note.parts import Head, Section, Shown, drawn, every, full, has
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.readings import agree, concluded, concluded_of_linkage
 from crankwork.note.table_width import SIZES, fits
@@ -81,10 +80,6 @@ _MOTION = (
     "slider_displacement", "slider_velocity", "slider_acceleration",
     "link_angle", "link_angular_velocity", "link_angular_acceleration",
 )  # fmt: skip
-
-
-# what stands in the appendix in the Vietnamese order
-_SINKING = [section for section in (*bearings.SECTIONS, *balance.SECTIONS) if section.name in ("mains", "balance")]
 
 
 def _is_place(key: str) -> bool:
@@ -293,15 +288,12 @@ def _further(material: Material) -> Iterator[Block]:
 
 
 def _rest(material: Material) -> Iterator[Block]:
-    """Yield what no section has: journals, balance and flywheel in Vietnamese notes, further values, figures."""
-    sunk = [section for section in _SINKING if section.when(material)] if material.order == "vi" else []
-    blocks = [block for section in sunk for block in written(section.parts, material)]
+    """Yield what no section has: further values, figures."""
     rest = [*material.intro("further", material.remaining_lines()), *_further(material)]
     if rest:
-        blocks += [material.words.heading("more", 2, numbered=False), *rest]
-    if blocks:
         yield material.words.heading("appendix")
-        yield from blocks
+        yield material.words.heading("more", 2, numbered=False)
+        yield from rest
 
 
 def _all_columns(material: Material) -> Iterator[Block]:

@@ -65,7 +65,15 @@ def listed(labels: Sequence[str]) -> Runs:
 _COVER_LINE, _COVER_LINES = 60, 24
 # letters of a formula in a table, about
 _FORMULA = 24
+
+
 # what stands in a table: finished text or a symbol
+class Strong(str):
+    """A cell in bold: of the row that is worked."""
+
+    __slots__ = ()
+
+
 Cell = str | Math
 
 
@@ -120,6 +128,7 @@ class Table:
     align: str = ""
     label: str = ""
     half: bool = False
+    defined: tuple[tuple[str, str], ...] = ()  # Symbols of headings that no equation explains, and their meanings
 
     def __post_init__(self) -> None:
         count = len(self.headings)

@@ -36,11 +36,11 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import RESULT_DIGITS, enough_digits, formula_box, is_exact_pi, whole_degrees
+from crankwork.note.per_area import by_area
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
-from crankwork.report.display import displayed, key_unit
 from crankwork.report.display import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
 
@@ -65,30 +65,30 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     """Return the lines of an equation."""
     if block.printed is not None:
         return block.printed
-    block = block if isinstance(block.step, Formula) else replace(block, step=without_noise(block.step))
+    block, ends = _to_print(block)
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []
-    for part in (*_definition(block, language), *_parts(block.step, language, block.digits, by_area=bool(block.area))):
+    for part in (*_definition(block, language), *_parts(block.step, language, block.digits, ends)):
         if parts and isinstance(part, Row) and Row(part.parts[:-2]) == row(parts[-1]):
             # the same number follows with its unit
             parts.pop()
         if _bare(part) != left and (not parts or part != parts[-1]):
             parts.append(part)
     lines = list(_lines(left, parts, limit))
-    if block.digits < RESULT_DIGITS and len(lines) > 1 and _has_two_units(block.step):
+    if block.digits < RESULT_DIGITS and len(lines) > 1 and isinstance(block.step, FormulaLine) and len(ends) > 1:
         # no line of its own for the same value in another unit
         shorter = list(_lines(left, [*parts[:-2], parts[-1]], limit))
         lines = shorter if len(shorter) < len(lines) else lines
-    if block.area:
-        symbol, value, unit = _per_area(block, language)
-        divided = row(symbol_box(symbol), EQUALS, value_box(value, unit, language, block.digits))
-        joined = row(lines[-1], Sign(";", "comma"), SPACE, divided)
-        lines[-1:] = [joined] if width(joined) <= limit else [lines[-1], divided]
-    return PrintedEquation(tuple(lines), _plain(block, language))
+    return PrintedEquation(tuple(lines), _plain(block, language, ends))
 
 
-def _has_two_units(step: Line | Formula) -> bool:
-    return isinstance(step, FormulaLine) and len(distinct_values(step)) > 1
+def _to_print(block: Equation) -> tuple[Equation, list[tuple[float, str]]]:
+    """Return an equation with its values as they are printed, by the piston area where that is known."""
+    if isinstance(block.step, Formula):
+        return block, []
+    step = without_noise(block.step)
+    step, ends = by_area(step, block.area) if block.area else (step, distinct_values(step))
+    return replace(block, step=step), ends
 
 
 def _bare(box: Box) -> Box:
@@ -97,14 +97,6 @@ def _bare(box: Box) -> Box:
         case Apply(name, Fence(Row((Letter() | Script() as inside,)))):
             return Apply(name, inside)
     return box
-
-
-def _per_area(block: Equation, language: Language) -> tuple[str, float, str]:
-    """Return a value by the piston area as tables give it: symbol, value and unit."""
-    assert not isinstance(block.step, Formula)  # noqa: S101 - only values are divided
-    key = block.step.key
-    symbol = f"{block.symbol or equation_symbol(block.step, language)}/{QUANTITIES['piston_area'].symbol(language)}"
-    return symbol, displayed(key, block.step.value, per_area=block.area), key_unit(key, per_area=True)
 
 
 def equation_symbol(step: Line | Formula, language: Language) -> str:
@@ -181,8 +173,8 @@ def _definition(block: Equation, language: Language) -> tuple[Box, ...]:
     return () if box is None else (box,)
 
 
-def _parts(step: Line | Formula, language: Language, least: int, *, by_area: bool = False) -> Iterator[Box]:
-    """Yield the boxes between the equal signs; `by_area`: the value by the piston area follows instead of a unit."""
+def _parts(step: Line | Formula, language: Language, least: int, ends: list[tuple[float, str]]) -> Iterator[Box]:
+    """Yield the boxes between the equal signs, the values at the end last."""
     match step:
         case Formula():
             yield formula_box(record(step.shown), None, language)
@@ -199,7 +191,7 @@ def _parts(step: Line | Formula, language: Language, least: int, *, by_area: boo
             if len(terms) > 1:
                 digits = enough_digits(step, least)
                 yield _joined([number_box(term.value, language, digits)[0] for term in terms])
-    for value, unit in distinct_values(step)[: 1 if by_area else None]:
+    for value, unit in ends:
         yield value_box(value, unit, language, least)
 
 
@@ -274,7 +266,7 @@ def value_text(value: float, unit: str, language: Language, digits: int = RESULT
     return number(value, language, digits=digits) + ("" if not name or name in _TIGHT_UNITS else "\u00a0") + name
 
 
-def _plain(block: Equation, language: Language) -> str:
+def _plain(block: Equation, language: Language, ends: list[tuple[float, str]]) -> str:
     """Return an equation as one line of text."""
     step = block.step
     parts = [block.symbol or equation_symbol(step, language)]
@@ -282,20 +274,21 @@ def _plain(block: Equation, language: Language) -> str:
         parts += [part for part in (definition_text(block.defined, language),) if part]
     if isinstance(step, Formula):
         return " = ".join([*parts, text(record(step.shown), None, language)])
-    further = line_parts(step, language, least=block.digits)
-    if not block.area:
-        return " = ".join([*parts, *further])
-    equation = " = ".join([*parts, *further[: -1 if len(distinct_values(step)) > 1 else None]])
-    symbol, value, unit = _per_area(block, language)
-    return f"{equation}; {symbol} = {value_text(value, unit, language, block.digits)}"
+    return " = ".join([*parts, *line_parts(step, language, least=block.digits, ends=ends)])
 
 
 def line_parts(
-    step: Line, language: Language, symbols: Mapping[str, str] = MappingProxyType({}), *, least: int = RESULT_DIGITS
+    step: Line,
+    language: Language,
+    symbols: Mapping[str, str] = MappingProxyType({}),
+    *,
+    least: int = RESULT_DIGITS,
+    ends: list[tuple[float, str]] | None = None,
 ) -> list[str]:
     """Return the parts of a line between the equal signs, as text: symbols, numbers, values with units.
 
-    `symbols`: those that stand for some operands here, by argument name, or by key in a sum; `least`: digits of values.
+    `symbols`: those that stand for some operands here, by argument name, or by key in a sum; `least`: digits of values;
+    `ends`: the values at the end where they are not those of the step.
     """
     parts, digits = [], enough_digits(step, least)
     if isinstance(step, FormulaLine):
@@ -313,7 +306,7 @@ def line_parts(
     while parts and parts[-1] == number(step.value, language, digits=least):
         # the same number follows with its unit
         parts.pop()
-    parts += [value_text(value, unit, language, least) for value, unit in distinct_values(step)]
+    parts += [value_text(value, unit, language, least) for value, unit in ends or distinct_values(step)]
     return [part for index, part in enumerate(parts) if not index or part != parts[index - 1]]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis.motor_choice import SERIES_SOURCE, selection_of
 from crankwork.locale import capital
-from crankwork.note.document import Block, Bold, Citation, Paragraph
+from crankwork.note.document import Block, Bold, Citation, Math, Paragraph
 from crankwork.note.lines import WHEEL_SIZES
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -41,6 +41,8 @@ from crankwork.note.torque import HARMONICS, ONE
 from crankwork.quantities.key import key_of
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
+# of the speed over a cycle, that in which a flywheel is found first
+_FIGURES = ("wittenbauer", "excess_work", "crank_speed")
 # rows of a table over the angle of a shaft
 _MOST_ROWS = 120
 # a speed changes little
@@ -85,7 +87,7 @@ def _marks(methods: list[str], material: Material) -> Mapping[str, str]:
     """Return symbols of the slopes and inertias of each method: its name does not stand in a symbol."""
     words, marks = material.words, dict[str, str]()
     for name in methods:
-        for kind in ("excess_work", "flywheel_inertia", "whole_inertia"):
+        for kind in ("flywheel_inertia", "whole_inertia"):
             marks[f"{kind}.{name}"] = words.symbol(kind)
         slope = words.symbol("wittenbauer_slope")
         ends = {"largest": "max", "least": "min"}
@@ -102,6 +104,17 @@ def _over_angle(material: Material) -> Iterator[Block]:
     shown = [key for key in _COLUMNS if key in results.columns]
     columns = [quantity_column(material, key, results.columns[key][rows], digits=_DIGITS[key]) for key in shown]
     return position_tables("turning", degrees[rows], columns, material.words, first=None, label="turning")
+
+
+def _over_cycle(material: Material) -> Iterator[Block]:
+    """Yield energy and speed over the cycle, with the figure that the flywheel is found in."""
+    table = Over("speed" if material.has("crank_speed") else "energy", ("kinetic_energy_change", "crank_speed"))
+    used = ("wittenbauer",) if "wittenbauer" in material.drawn and not material.full else _FIGURES
+    return material.presented([table(material)], used)
+
+
+def _exact_work(material: Material) -> Math:
+    return Math(material.words.symbol("excess_work.exact"))
 
 
 def _rated(material: Material) -> str:
@@ -147,18 +160,16 @@ _FOUND: tuple[Part, ...] = (
     _by_methods,
 )
 _OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
-_FIGURES = ("excess_work", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")
 _IS_EXACT = every(_is_wanted, has("flywheel_inertia.exact"))
 _STEADY = Text("steady", {"speed": amount("steady_speed", "rpm"), "fluctuation": number("steady_fluctuation")})
 SECTIONS = (
     Section("evenness", (
         Head("evenness"), When(every(_OF_ENERGY, lacks(_IS_EXACT)), (Text("evenness_of_all"),)),
-        When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact"),)),
+        When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact", {"work": _exact_work}),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), When(either(full, lacks(_IS_EXACT)), (Lines("uniformity"),)),
         When(_IS_EXACT, _FOUND),
-        When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),
-        When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _OF_ENERGY_AND_SPEED),)),)),
+        _over_cycle,
         When(every(full, ONE), HARMONICS),
     ), has("piston_displacement", "excess_work")),
     Section("energy", (

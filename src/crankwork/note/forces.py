@@ -241,19 +241,19 @@ _INERTIA_OF_LINKS: tuple[Part, ...] = (
 _IN_JOINTS = ("joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment")
 SECTIONS = (
     Section("dynamics", (
-        Head("dynamics"), Head("masses", 2), _masses,
+        Head("dynamics"), _per_area, Head("masses", 2), _masses,
         When(works("forces"), (
-            Head("forces", 2), *_WORKED, _per_area, Shown(("piston_forces",), (Over("along", _along),)), _ON_CRANKPIN,
+            Head("forces", 2), *_WORKED, Shown(("piston_forces",), (Over("along", _along),)), _ON_CRANKPIN,
             When(full, (Head("extremes", 2), _OF_FORCES)), _OF_POWER,
         )),
     ), either(works("masses"), works("forces"))),
     Section("inertia", (
-        Head("inertia"), _masses, At("forces"), Lines("forces", _INERTIA, intro="inertia"),
+        Head("inertia"), _per_area, _masses, At("forces"), Lines("forces", _INERTIA, intro="inertia"),
         Lines("force_extremes", ("inertia_force_max", "inertia_force_min"), intro="extremes"),
         When(works("forces"), (Text("see_table", {"tables": Reference("t:along")}),)),
     ), works("masses")),
     Section("piston_forces", (
-        Head("along"), At("forces"), Lines("forces", (*_BEFORE_FORCES, "weight_force", "piston_force")), _per_area,
+        Head("along"), At("forces"), Lines("forces", (*_BEFORE_FORCES, "weight_force", "piston_force")),
         Shown(("piston_forces",), (_to_six_decimals,)),
         Lines("force_extremes", ("piston_force_max", "piston_force_min"), intro="extremes"),
     ), works("forces")),

@@ -9,7 +9,7 @@ from crankwork.formula.calculation_lines import FormulaLine, symbols_of
 from crankwork.formula.expression import Formula, record, symbol
 from crankwork.locale import has_text, translate
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
-from crankwork.note.document import Block, Equation
+from crankwork.note.document import Block, Equation, Table
 from crankwork.note.equations import equation_symbol, own_key, value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
@@ -69,6 +69,8 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
     collected: dict[Meaning, None] = {}
     known: set[str] = set()
     for block in blocks:
+        if isinstance(block, Table):
+            collected |= dict.fromkeys(Meaning(*defined) for defined in block.defined)
         if not isinstance(block, Equation):
             continue
         step = block.step

@@ -22,6 +22,7 @@ from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.per_area import with_area
 from crankwork.note.readings import reading
 from crankwork.note.table_width import is_narrow
 from crankwork.note.wording import Words, named
@@ -73,11 +74,6 @@ _OF_ROD = ("rod_small_end_mass", "rod_big_end_mass", "rod_centre_distance")
 _LOWER = 0.62
 # significant digits of the values of a note that does not show all
 _DIGITS = 4
-# sentences that refer to one of a kind, and to several
-_SEE = {
-    "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
-    "figure": ("see_figure", "see_figures"),
-}  # fmt: skip
 # figures of a note that does not show all, and those that a school adds to them
 _MAIN_FIGURES = frozenset((
     "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
@@ -91,7 +87,7 @@ _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "c
 _SMALL = frozenset((
     "indicator", "pressure", "kinematics", "tolle", "piston_forces", "rod_forces", "crankpin_forces", "torque",
     "crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar", "crankpin_wear", "balance_orders",
-    "excess_work",
+    "excess_work", "wittenbauer", "brix",
 ))  # fmt: skip
 # those that are large enough where nothing stands beside them either
 _ROUND = frozenset(("crankpin_wear",))
@@ -308,8 +304,11 @@ class Material:
             has_definition = self.has_piston and (not again or line.key == "excess_work.exact")
             defined = line.key if isinstance(line, ValueLine) and has_definition else ""
             area = self.area(line.key) or 0.0
+            step: Line = line
+            if self.per_area and not area and isinstance(line, FormulaLine):
+                step = with_area(line, self.summary["piston_area"])
             symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
-            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area, digits=self.digits))
+            blocks.append(Equation(step, symbol=symbol, defined=defined, area=area, digits=self.digits))
             self._keys.add(line.key)
             self._formulas.add(_formula_name(line))
         return blocks
@@ -343,7 +342,11 @@ class Material:
         degrees = self.groups[group].degrees if group in self.groups else None
         if degrees is not None:
             key = "worked_time" if self.words.period else "worked_at" if self.has_piston else "worked_position"
-            yield self.words.paragraph(key, value=self.words.place_text(degrees))
+            sentence = self.words.sentence(key, value=self.words.place_text(degrees))
+            if key == "worked_at" and ("row", degrees) not in self._shown and degrees in self.results.grid.degrees:
+                self._shown.add(("row", degrees))
+                sentence += (" ", *self.words.sentence("worked_row"))
+            yield Paragraph(sentence)
 
     def nonzero(self, *kinds: str) -> list[str]:
         """Return the columns of some kinds that are not zero throughout."""
@@ -367,23 +370,27 @@ class Material:
             # of crankpins that differ the first
             firsts = {kind_of(name): name for name in reversed(drawn)}
             drawn = [name for name in drawn if kind_of(name) not in _OF_CRANKPINS or name in firsts.values()]
-        labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
+        labels: dict[str, list[str]] = {"tables": [table.label for table in shown_tables if table.label]}
         for name in drawn:
-            labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
-        sentences: list[Run] = []
-        for kind, shown in labels.items():
-            if shown:
-                what = "tables" if kind == "table" else "figures"
-                sentence = self.words.sentence(_SEE[kind][len(shown) > 1], **{what: listed(shown)})
-                sentences += [" ", *sentence] if sentences else sentence
-        if sentences:
-            yield Paragraph(tuple(sentences))
+            is_alone = name in _CONSTRUCTED and not labels["tables"]
+            labels.setdefault("constructions" if is_alone else "figures", []).append(f"f:{name}")
+        told = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
+        if {"tables", "figures"} <= told.keys():
+            yield self.words.paragraph("see_both", **told)
+        elif told:
+            sentences = [run for what in told for run in (" ", *self.words.sentence(f"see_{what}", **told))]
+            yield Paragraph(tuple(sentences[1:]))
         for row in self._rows(drawn, shown_tables):
             yield from row
             for name in (block.name for block in row if isinstance(block, Figure)):
                 read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
                 if read is not None:
                     yield read
+
+    def _reference(self, what: str, labels: list[str]) -> Runs:
+        """Return how a sentence names tables or figures: `figures 3, 4`."""
+        kind = "table" if what == "tables" else "figure"
+        return self.words.sentence(f"{kind}{'s' * (len(labels) > 1)}_named", **{f"{kind}s": listed(labels)})
 
     def _rows(self, names: Sequence[str], tables: Sequence[Table]) -> Iterator[tuple[Figure | Table, ...]]:
         """Yield figures and tables, small ones in pairs side by side."""

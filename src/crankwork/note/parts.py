@@ -27,17 +27,14 @@ def always(_: Material) -> bool:
 
 @dataclass(frozen=True)
 class Head:
-    """A heading; `sinks`: one level lower where its section stands in the appendix."""
+    """A heading."""
 
     key: str
     level: int = 1
-    sinks: bool = False
 
     def __call__(self, material: Material) -> Iterator[Block]:
         """Yield it."""
-        # the Vietnamese order has such sections in the appendix
-        lower = self.sinks and material.order == "vi"
-        yield material.words.heading(self.key, 2 if lower else self.level, numbered=not lower)
+        yield material.words.heading(self.key, self.level)
 
 
 @dataclass(frozen=True)

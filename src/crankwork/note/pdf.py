@@ -30,6 +30,7 @@ from crankwork.note.document import (
     Paragraph,
     Run,
     Runs,
+    Strong,
     Table,
     TitlePage,
     side_by_side,
@@ -71,7 +72,7 @@ _SETTINGS = """
 #show heading.where(level: 1): set text(size: 14pt)
 #show heading.where(level: 2): set text(size: 12pt)
 #show heading.where(level: 3): set text(size: 11pt)
-#set table(inset: (x: 4pt, y: 2.6pt))
+#set table(inset: (x: 4pt, y: 2.3pt))
 #let ruled(head) = (_, y) => if y == head {
   (top: 0.7pt + black, bottom: 0.5pt + black)
 } else if y > head { (bottom: 0.3pt + luma(70%)) }
@@ -80,11 +81,13 @@ _SETTINGS = """
   let wide = measure(line).width
   if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
 })
-#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.7em, below: 0.7em, grid(
+#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.6em, below: 0.6em, grid(
   columns: (1fr, auto), column-gutter: 0.8em,
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
-  grid(row-gutter: 0.75em, align: center, ..all.pos()), number,
+  grid(row-gutter: 0.65em, align: center, ..all.pos()), number,
 ))
+#show figure.caption: set text(hyphenate: false)
+#show figure.caption: set par(justify: false)
 #let drawing(body, words) = block(breakable: false, width: 100%, above: 1.2em, below: 1.2em, figure(
   body, caption: words, numbering: none, supplement: none, kind: "drawing",
 ))
@@ -102,8 +105,9 @@ _SETTINGS = """
 #let again(count, words) = (
   table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
 )
-#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, words)
-#let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { words; v(-16pt) })
+#let named(words) = { set text(hyphenate: false); set par(justify: false); words }
+#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, named(words))
+#let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { named(words); v(-16pt) })
 """
 # one page of any height, on which positions show how high everything is, within a share
 _ENDLESS = "#set page(width: 210mm, height: auto)\n"
@@ -121,7 +125,7 @@ _SURELY_FITS, _LETTER = 33.5, 0.5
 # columns of a table whose parts stand side by side
 _SEVERAL_PARTS = 8
 # height of a line of a table [em], and what is free above and below it [pt]
-_LINE, _INSET = 0.66, 2.6
+_LINE, _INSET = 0.66, 2.3
 # a word that may be wider than a column of the cover
 _LONG_WORD = re.compile(r"\S{28,}")
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
@@ -259,6 +263,8 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
+        if not isinstance(row[0], Strong)
+        else ", ".join(f"strong({typst_string(str(cell))})" for cell in row)
         for row in block.rows
     )
     again = "" if is_kept else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
@@ -322,6 +328,7 @@ def _breakable(text: str) -> str:
 
 def _title_page(page: TitlePage, note: Note) -> str:
     """Return the cover: whose it is at the head, the title in the middle, people below, place and year at the foot."""
+    headline = note.headline.replace(" × ", "\u00a0×\u00a0")
     small = 0.62 if page.is_crowded else 0.8 if page.is_plain else 1.0
 
     def lines(texts: tuple[str, ...], size: float, weight: int = 400) -> str:
@@ -330,7 +337,7 @@ def _title_page(page: TitlePage, note: Note) -> str:
 
     if page.is_plain:
         people_line = tuple(", ".join(person.names) for person in page.people)
-        title = f"{lines((note.headline,), 20, 700)}{lines(page.below, 14)}{lines(people_line, 14)}"
+        title = f"{lines((headline,), 20, 700)}{lines(page.below, 14)}{lines(people_line, 14)}"
         return f"#align(center, block(below: 1.6em)[#set par(justify: false)\n{title}])"
     # the strokes of signatures stand under names that are written by hand
     sign = "box(width: 32mm, height: 0.9em, stroke: (bottom: 0.4pt))"
@@ -342,7 +349,7 @@ def _title_page(page: TitlePage, note: Note) -> str:
     columns = "(auto, auto, 1fr)" if any(person.signs for person in page.people) else "(auto, 0pt, auto)"
     grid = f"grid(columns: {columns}, column-gutter: 0.7em, row-gutter: 0.9em, align: left + bottom, {people})"
     body = (
-        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((note.headline,), 20, 700)}"
+        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((headline,), 20, 700)}"
         f"#v(0.8em)\n{lines(page.below, 14)}#v(1fr)\n"
     )
     if people:

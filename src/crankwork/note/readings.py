@@ -23,6 +23,7 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
     "piston_forces": ("piston_force_max", "piston_force_min"),
     "crankpin_forces": ("tangential_force_max", "tangential_force_min"),
     "total_torque": ("total_torque_max", "total_torque_min"),
+    "wittenbauer": ("crank_speed_max", "crank_speed_min"),
     "crankpin_polar": ("crankpin_load_max", "mean_crankpin_load"),
     "torques": ("driving_torque_max", "driving_torque_min"),
     "reduced_inertia": ("reduced_inertia_max", "reduced_inertia_min"),

@@ -75,11 +75,11 @@ _CRANK_GEAR: dict[str, tuple[str, ...]] = {
         "summary", "data", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin",
         "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
-    # between the data and the checks the twelve sections that such notes have
+    # after the data the twelve sections that such notes have, then what conclusions refer to
     "vi": (
         "summary", "data", "nomenclature", "cycle", "indicator", "displacement", "velocity", "acceleration",
-        "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness",
-        "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "mains",
+        "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     "en": (
         "summary", "data", "method", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque",
@@ -134,7 +134,7 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
         title, title_page = "", replace(title_page, below=(title, *title_page.below))
     front: list[Block] = [title_page]
     if options.full or not title_page.is_plain:
-        front += [Contents(), PageBreak()]
+        front += [Contents(), *([PageBreak()] if options.full else [])]
     return Note(
         options.title or title or made,
         options.language,

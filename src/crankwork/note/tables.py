@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from crankwork.analysis import Array
 from crankwork.analysis.results import Listing
 from crankwork.locale import has_text
-from crankwork.note.document import Block, Cell, Math, Run, Runs, Table
+from crankwork.note.document import Block, Cell, Math, Run, Runs, Strong, Table
 from crankwork.note.material import Material
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
@@ -68,20 +68,38 @@ def long_table(
 ) -> Table | None:
     """Return a table over the crank angle with one row for each, to the angle `until` [deg]."""
     words, degrees = material.words, material.results.grid.degrees
-    rows = short_rows(material, until=until)
+    known = [key for key in keys if key in material.columns]
+    worked = np.abs(degrees - _worked(material, known, until)) < _NEAR
+    rows = short_rows(material, until=until) | (worked & (degrees <= until + _NEAR))
     columns = [
-        quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key))
-        for key in keys
-        if key in material.columns
+        quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key)) for key in known
     ]
     if not columns:
         return None
     angles = [words.number(float(angle)) for angle in degrees[rows]]
-    return column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
+    table = column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
+    marked = worked[rows].tolist()
+    return replace(
+        table, rows=[tuple(map(Strong, row)) if mark else row for mark, row in zip(marked, table.rows, strict=True)]
+    )
+
+
+def _worked(material: Material, keys: Sequence[str], until: float) -> float:
+    """Return the angle at which the note works most of some columns, none that it works: no number. [deg]"""
+    shares = [
+        (len({line.key for line in group.lines} & {*keys}), group.degrees)
+        for group in material.groups.values()
+        if group.degrees is not None
+    ]
+    share, worked = max(shares, default=(0, math.nan))
+    if not share:
+        return math.nan
+    # what repeats is worked at one of its repetitions
+    return worked if math.isinf(until) else worked % until
 
 
 def short_rows(material: Material, *, until: float = math.inf) -> NDArray[np.bool]:
-    """Return which rows a table over the crank angle has in this note."""
+    """Return which rows a table over the crank angle has in this note, without that of the angle that is worked."""
     degrees = material.results.grid.degrees
     rows = degrees <= until + _NEAR
     if material.full or rows.sum() <= _FEW:
@@ -135,13 +153,18 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
         ] or rows
     if listing.names:
         columns.append(Column((words.column("row"),), [_row_text(listing.names[k], words) for k in rows]))
+    shown = list[str]()
     for key, values in listing.columns.items():
         if not columns:
             entries = [words.number(value) for value in material.shown(key, values).tolist()]
             columns.append(Column(words.titled(key), entries))
         elif not (listing.names and material.has_piston) or np.any(np.nan_to_num(values[rows])):
             columns.append(quantity_column(material, key, values[rows] if listing.names else values))
-    return column_table(caption, columns, words, "l" if listing.names else "c")
+            shown.append(key)
+    symbols = {words.symbol(key): label(key, words.language) for key in shown}
+    symbols.pop(words.symbol("crank_angle"), None)
+    explained = tuple(symbols.items())
+    return replace(column_table(caption, columns, words, "l" if listing.names else "c"), defined=explained)
 
 
 def _are_equal_rows(listing: Listing, row: int, other: int) -> bool:
@@ -174,12 +197,13 @@ def symbol_table(meanings: Sequence[tuple[Cell, str]], words: Words) -> Table:
 
 
 def value_row(key: str, value: float, words: Words, *, area: float | None = None, digits: int = 6) -> tuple[Cell, ...]:
-    """Return name, symbol, value and unit of a single value."""
+    """Return name, symbol, value and unit of a single value; a name may end in the unit of what is stored in it."""
+    name, celsius, _ = label(key, words.language).partition(", °C")
     return (
-        label(key, words.language),
+        name,
         Math(words.symbol(key)),
         words.number(displayed(key, value, per_area=area), digits=min(digits, words.digits) if area else digits),
-        printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
+        celsius.removeprefix(", ") or printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
     )
 
 

@@ -135,6 +135,9 @@ def _states(name: str) -> Condition:
     return lambda material: getattr(material.machine.transfer, name) is not None
 
 
+# the angle that is worked, within the interval that is tabulated
+_REPEATS = Text("total_repeats", {"value": lambda material: material.words.place_text(
+    (material.groups["engine_torque"].degrees or 0.0) % _interval(material))})  # fmt: skip
 ONE, _SEVERAL = _cylinders(lambda count: count == 1), _cylinders(lambda count: count > 1)
 # amplitudes of the torque by order, worked for the first of them
 HARMONICS: tuple[Part, ...] = (
@@ -155,7 +158,7 @@ SECTIONS = (
                 "tangential_force", "crank_torque", "throw_torque", "total_torque", "total_tangential_force",
             )),
         )),
-        When(every(_SEVERAL, lacks(full), lambda material: _interval(material) < math.inf), (Text("total_repeats"),)),
+        When(every(_SEVERAL, lacks(full), lambda material: _interval(material) < math.inf), (_REPEATS,)),
         When(_SEVERAL, (Shown(("total_tangential_force", "total_torque"), (_all_cylinders,)),)),
         When(ONE, (
             Shown(("total_torque",)),

@@ -95,7 +95,9 @@ def vector_plans(material: Material) -> Iterator[Block]:
                 group, [line for equation in group for part in equation.right for line in writer.worked(part)]
             )
     if material.options.figures:
-        yield words.paragraph("see_construction", figures=Reference("f:velocity_plan"))
+        yield words.paragraph(
+            "see_constructions", constructions=words.sentence("figure_named", figures=Reference("f:velocity_plan"))
+        )
         yield Figure(
             figure,
             figure.title,

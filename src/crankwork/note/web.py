@@ -23,6 +23,7 @@ from crankwork.note.document import (
     Paragraph,
     Run,
     Runs,
+    Strong,
     Table,
     TitlePage,
     side_by_side,
@@ -201,7 +202,7 @@ def _run(run: Run, numbers: Numbering) -> str:
     if isinstance(run, Math):
         return f"<math>{mathml_box(inline_box(run.content, numbers.language))}</math>"
     words = xml_text(numbers.words(run))
-    return f"<strong>{words}</strong>" if isinstance(run, Bold) else words
+    return f"<strong>{words}</strong>" if isinstance(run, Bold | Strong) else words
 
 
 def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]:

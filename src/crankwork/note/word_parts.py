@@ -20,6 +20,7 @@ from crankwork.note.document import (
     Person,
     Run,
     Runs,
+    Strong,
     Table,
     TitlePage,
     cell_length,
@@ -85,7 +86,7 @@ def runs_xml(runs: Runs, numbers: Numbering, properties: str = "") -> str:
 def _run(run: Run, numbers: Numbering, properties: str) -> str:
     if isinstance(run, Math):
         return f"<m:oMath>{omml_box(inline_box(run.content, numbers.language))}</m:oMath>"
-    return text_run(numbers.words(run), "<w:b/>" + properties if isinstance(run, Bold) else properties)
+    return text_run(numbers.words(run), "<w:b/>" + properties if isinstance(run, Bold | Strong) else properties)
 
 
 def inline_box(content: str | Expression | FormulaLine, language: Language) -> Box:

@@ -30,7 +30,7 @@ from crankwork.show.chart import (
     sheet,
     small_text,
 )
-from crankwork.show.chart_layout import columns_of, current_layout, scaled_height
+from crankwork.show.chart_layout import columns_of, current_layout, is_narrow, scaled_height
 from crankwork.show.label_placement import label_marks, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES
 
@@ -134,6 +134,9 @@ def _polar(
         rows = [*rows, Row(engine.stated(mean_key, mean), DASHED, _MEAN if wide == 1 else 0.0)]
     if wide > 1:
         rows = [*rows, Row(translate("drawing.wider_across", engine.language, factor=wide), width=0.0)]
+    if is_narrow():
+        # the title names the curve, and a list the symbols
+        rows = [row._replace(text=row.text.partition(" – ")[0] if "=" in row.text else row.text) for row in rows[1:]]
     # marks cannot be distinguished on a lower diagram
     paper, box = sheet(_HEIGHT * max(1.0, _LOWEST / current_layout().tall), rows)
     # a circle where scales are equal, which would be an ellipse elsewhere

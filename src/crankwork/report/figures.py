@@ -418,7 +418,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Curves("unbalanced", _unbalanced, "subjects.balance"),
     Construction("transient", _transient, every(_drawn, has("transient"))),
     Construction("speed", speed_curve, _speed),
-    Construction("wittenbauer", wittenbauer, every(_drawn, has_energy_mass_diagram)),
+    Construction("wittenbauer", wittenbauer, lambda machine: (_drawn(machine) or _engine(machine))
+                 and has_energy_mass_diagram(machine)),
     Construction("comparison", _compared, _has_compared),
 )  # fmt: skip
 

@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.constructions import Fluctuation, Tangents, tangents
 from crankwork.analysis.given_torques import turning_diagram
-from crankwork.locale import translate
+from crankwork.locale import texts, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.display import symbol
@@ -26,7 +26,7 @@ from crankwork.report.look import (
 )
 from crankwork.show.canvas import GREY, Canvas
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_remark
-from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import current_layout, is_narrow, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_marks, label_points, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
 from crankwork.units import METRIC, use_units
@@ -70,11 +70,12 @@ def excess_work(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         sign = f"{symbol}{',' if '_' in symbol else '_'}{name}$"
         mark_point(graph, name, float(np.degrees(place)), value, sign)
     place = 0.5 * engine.cycle * (0.02 if np.degrees(extremes.at_largest) > 0.1 * engine.cycle else 1.9)
-    name = f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}"
+    sign, way = engine.symbol("excess_work")[:-1], ""
     if not math.isclose(excess.work, engine.results.summary.get("excess_work", excess.work), rel_tol=_SAME):
         # the flywheel may follow from another one
-        name = f"{name}, {translate('report.way_mertsalov', language)}"
-    _span(graph, place, unit_less, name)
+        sign = f"{sign}{',' if '_' in sign else '_'}{texts('marks', language)['mertsalov']}"
+        way = f", {translate('report.way_mertsalov', language)}"
+    _span(graph, place, unit_less, f"{sign}$ = {engine.value('excess_work', excess.work)}{way}")
     engine.name_axes(graph, "crank_angle", "excess_work")
     return paper, {"torque": torque, "energy": graph}
 
@@ -128,6 +129,8 @@ def crank_speed(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def has_energy_mass_diagram(machine: Drawn) -> bool:
     """Return whether a fluctuation of the speed is wanted of something that has mass, which turns fully."""
     columns, drive = machine.reached.columns, machine.results.machine.drive
+    if machine.has_piston:
+        return "flywheel_inertia.exact" in machine.results.summary and drive.fluctuation is not None
     # without masses the energy stands over one point
     return has_speed(machine) and drive.fluctuation is not None and bool(np.any(columns["reduced_inertia"]))
 
@@ -135,28 +138,39 @@ def has_energy_mass_diagram(machine: Drawn) -> bool:
 def wittenbauer(machine: Drawn) -> Drawing:
     """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis."""
     degrees, columns, drive = machine.reached.degrees, machine.reached.columns, machine.results.machine.drive
+    if machine.has_piston:
+        columns = machine.diagrams.values("reduced_inertia", "kinetic_energy_change")
+        degrees = machine.diagrams.degrees
     inertia, energy = columns["reduced_inertia"], columns["kinetic_energy_change"]
     wanted = Fluctuation(machine.results.solved.speed, drive.fluctuation or 0.0)
     construction, language = tangents(inertia, energy, wanted), machine.language
+    work = construction.foot_max - construction.foot_min
     # slopes and angles are those of J over kg m2
     with use_units(METRIC):
         ends, scales = _ends(inertia, energy, construction)
         slopes = (construction.slope_max, "max"), (construction.slope_min, "min")
-        rows = [Row(_angle(scales.x / scales.y, slope, name, language), width=0.0) for slope, name in slopes]
-        if not current_layout().is_sheet:
+        # a column of a note may be narrower than the drawing, and its formulas have the slopes
+        rows = (
+            []
+            if is_narrow()
+            else [Row(_angle(scales.x / scales.y, slope, name, language), width=0.0) for slope, name in slopes]
+        )
+        if not (current_layout().is_sheet or is_narrow()):
             # a sheet has them over every graph
             rows.append(Row(_scales(scales, language), width=0.0))
         paper, box = sheet((ends[1][1] - ends[1][0]) / scales.y * points_per_mm() / scaled_height(1.0), rows)
         graph = Graph(paper, box, *ends, language)
         graph.frame(round_ticks(*graph.x), graph.up_ticks)
         _lines(graph, inertia, energy, construction, degrees)
-        graph.x_title(axis_title(QUANTITIES["reduced_inertia"], language))
+        graph.x_title(axis_title(QUANTITIES[f"{'total_' * (machine.cylinders > 1)}reduced_inertia"], language))
         graph.y_title(axis_title(QUANTITIES["kinetic_energy_change"], language))
-        cut = number((construction.foot_max - construction.foot_min) / scales.y, language, digits=5)
+        cut = number(work / scales.y, language, digits=5)
         shown = f"{number(construction.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
         tan = "tg" if language == "ru" else "tan"
-        formula = f"$μ_J$ $kl$/({tan} $ψ_max$ − {tan} $ψ_min$) = {shown}"
-        foot = f"$kl$ = {cut} {unit_name('mm', language)}; {translate('drawing.flywheel', language)}: {formula}"
+        formula = f"$kl$/({tan} $ψ_max$ − {tan} $ψ_min$) = {shown}"
+        foot = f"$kl$ = {cut} {unit_name('mm', language)}; {translate('drawing.flywheel', language)}: $μ_J$ {formula}"
+        if is_narrow():
+            foot = f"$kl$ = {number(work, language, digits=4)} {unit_name('J', language)}; {formula}"
         write_remark(paper, foot)
         return paper.drawing(figure_title("wittenbauer", language), language)
 
@@ -204,6 +218,9 @@ def _lines(graph: Graph, inertia: Array, energy: Array, construction: Tangents, 
         ends = [0.0, width], [foot, foot + slope * width]
         graph.curve(name, *inside(ends, graph.y), line, width=0.9)
     marks = [int(np.argmin(np.abs(degrees - angle))) for angle in np.arange(0, float(degrees[-1]) - 1, 30)]
+    # of several cylinders the curve runs through the same points again
+    places = [(round(float(graph.across(inertia[i]))), round(float(graph.down(energy[i])))) for i in marks]
+    marks = [mark for k, mark in enumerate(marks) if places[k] not in places[:k]]
     points = [(f"{degrees[i]:g}", float(inertia[i]), float(energy[i])) for i in marks]
     label_points(graph, [*points, ("k", 0.0, feet[0]), ("l", 0.0, feet[1])])
     for name in ("max", "min"):

@@ -61,7 +61,7 @@ _STRAIGHT = 1e-3
 def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return three panels over the cycle; an approximate method shows the two orders it is made of."""
     has_orders = "piston_velocity_first_order" in engine.columns
-    panel = scaled_height(_PANEL)
+    panel = scaled_height(_PANEL * (0.75 if is_narrow() else 1.0))
     paper = Canvas(current_layout().width, TOP + 4 + 3 * panel + 2 * _PANEL_GAP + BOTTOM)
     graphs: dict[str, Graph] = {}
     top = TOP + 4

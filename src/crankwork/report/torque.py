@@ -82,7 +82,8 @@ def _summed(engine: Drawn, key: str, own: str, mean: float | None = None) -> tup
     if mean is not None:
         level = float(engine.shown("mean_total_torque", mean))
         mean, level = (0.0, 0.0) if abs(level) < 1e-9 * float(np.max(np.abs(total))) else (mean, level)
-        rows.append(Row(engine.stated("mean_total_torque", mean), DASHED))
+        # a name would take the legend a line of its own
+        rows.append(Row(engine.stated("mean_total_torque", mean).partition(" – ")[0], DASHED))
     which = translate("drawing.cylinder", engine.language, number=1)
     rows.append(Row(f"{engine.named(own)}, {which}", SOLID, _THIN, GREY))
     rows.append(Row(f"▼ – {translate('drawing.fires', engine.language)}", width=0.0))

@@ -273,15 +273,27 @@ def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
     return lines
 
 
+def _beside(lines: Sequence[tuple[Row | None, str]]) -> int:
+    """Return how many lines of a legend stand beside each other: two where each is short."""
+    layout = current_layout()
+    half = (layout.width - layout.left - 8) / 2
+    short = all(row is not None and text_width(text, _LEGEND) * WIDER + 30 < half for row, text in lines)
+    return 2 if short and len(lines) > 1 and not layout.is_sheet else 1
+
+
 def legend_height(rows: Sequence[Row]) -> float:
     """Return the height of a legend above its graph. [pt]"""
-    return LEGEND_ROW * len(_legend_lines(rows)) + 5.0 if rows else 0.0
+    lines = _legend_lines(rows)
+    return LEGEND_ROW * -(-len(lines) // _beside(lines)) + 5.0 if rows else 0.0
 
 
 def legend(paper: Canvas, rows: Sequence[Row], top: float) -> None:
     """Draw a legend at the left edge of a graph, from `top` downward. [pt]"""
-    for index, (row, text) in enumerate(_legend_lines(rows)):
-        left, level = current_layout().left + 8, top + LEGEND_ROW * index
+    lines, layout = _legend_lines(rows), current_layout()
+    beside = _beside(lines)
+    for index, (row, text) in enumerate(lines):
+        line, column = divmod(index, beside)
+        left, level = layout.left + 8 + column * (layout.width - layout.left - 8) / 2, top + LEGEND_ROW * line
         if row is not None and row.style == CIRCLE:
             paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=0.9)
         elif row is not None and row.style == DOT:
