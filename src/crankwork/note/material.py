@@ -364,23 +364,27 @@ class Material:
             # of crankpins that differ the first
             firsts = {kind_of(name): name for name in reversed(drawn)}
             drawn = [name for name in drawn if kind_of(name) not in _OF_CRANKPINS or name in firsts.values()]
-        labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
-        for name in drawn:
-            labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
-        sentences: list[Run] = []
-        for kind, shown in labels.items():
-            if shown:
-                what = "tables" if kind == "table" else "figures"
-                sentence = self.words.sentence(_SEE[kind][len(shown) > 1], **{what: listed(shown)})
-                sentences += [" ", *sentence] if sentences else sentence
+        sentences = [*self._referring([table.label for table in shown_tables if table.label], drawn)]
         if sentences:
-            yield Paragraph(tuple(sentences))
+            yield Paragraph(tuple(run for sentence in sentences for run in (" ", *sentence))[1:])
         for row in self._rows(drawn, shown_tables):
             yield from row
             for name in (block.name for block in row if isinstance(block, Figure)):
                 read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
                 if read is not None:
                     yield read
+
+    def _referring(self, tables: Sequence[str], names: Sequence[str]) -> Iterator[Runs]:
+        """Yield the sentences that refer to tables by label and to figures by name; a linkage has many kinds."""
+        labels: dict[str, list[str]] = {"table": [*tables]}
+        for name in names if self.has_piston else ():
+            labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
+        for kind, shown in labels.items():
+            if shown:
+                what = "tables" if kind == "table" else "figures"
+                yield self.words.sentence(_SEE[kind][len(shown) > 1], **{what: listed(shown)})
+        for name in () if self.has_piston else names:
+            yield self.words.sentence("figure_shows", what=self._title(name), figure=listed([f"f:{name}"]))
 
     def _rows(self, names: Sequence[str], tables: Sequence[Table]) -> Iterator[tuple[Figure | Table, ...]]:
         """Yield figures and tables, small ones in pairs side by side."""

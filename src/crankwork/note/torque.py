@@ -74,10 +74,10 @@ def _losses(material: Material) -> Iterator[Block]:
     if drive.efficiency == 1 and material.machine.friction:
         # a section of its own says what rubs
         return
-    yield words.heading("efficiency", 2)
     if drive.efficiency == 1:
         yield words.paragraph("no_losses")
         return
+    yield words.heading("efficiency", 2)
     yield words.paragraph(
         "efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency, digits=material.digits)
     )
@@ -88,6 +88,11 @@ def _losses(material: Material) -> Iterator[Block]:
     if drive.exact_efficiency is not None:
         used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency, digits=material.digits)
         yield words.paragraph("efficiency_rounded", used=used, exact=exact)
+
+
+def _is_lossy(material: Material) -> bool:
+    """Return whether an efficiency divides or multiplies the torque."""
+    return material.machine.drive.efficiency != 1
 
 
 def _over_positions(caption: str, label: str, *keys: str) -> Callable[[Material], Iterator[Table]]:
@@ -128,6 +133,10 @@ def _numbered(symbol: str, position: int) -> str:
 def _cylinders(count: Callable[[int], bool]) -> Condition:
     """Return the condition on how many cylinders turn a shaft together."""
     return lambda material: material.machine.engine is not None and count(len(material.machine.engine.layout.places))
+
+
+def _has_static(material: Material) -> bool:
+    return bool(material.nonzero("static_torque"))
 
 
 def _states(name: str) -> Condition:
@@ -179,7 +188,7 @@ SECTIONS = (
         _at_all("dynamic_torque"),
     ), _IS_TABLE),
     Section("driving", (
-        Head("driving"), Text("torques"), _losses, Text("driving"), _at_all("driving_torque"),
+        Head("driving"), Text("torques"), _losses, When(_is_lossy, (Text("driving"),)), _at_all("driving_torque"),
         _over_positions("table_torque", "torque", *_OF_TABLE), Shown(("torques",)),
     ), every(_IS_TABLE, has("driving_torque"))),
     Section("moments", (
@@ -195,9 +204,10 @@ SECTIONS = (
         Shown(("reduced_inertia",)),
     ), every(turning, has("reduced_inertia"))),
     Section("torques", (
-        Head("torques"), Text("torques"), At("torques"),
-        Lines("torques", ("static_torque", "dynamic_torque", "balancing_torque")), _losses, Text("driving"),
-        Lines("torques", ("driving_torque",)), Places("table_torque", _TORQUES, "torque", filled=True),
+        Head("torques"), When(_has_static, (Text("torques"),)), When(lacks(_has_static), (Text("torques_dynamic"),)),
+        At("torques"), Lines("torques", ("static_torque", "dynamic_torque", "balancing_torque")), _losses,
+        When(_is_lossy, (Text("driving"), Lines("torques", ("driving_torque",)))),
+        Places("table_torque", _TORQUES, "torque", filled=True),
         Shown(("torques",)),
     ), every(turning, has("reduced_inertia"))),
     Section("harmonics", (
