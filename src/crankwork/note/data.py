@@ -23,6 +23,7 @@ from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import SUBJECTS
+from crankwork.report.dimensions import Length
 from crankwork.report.display import key_unit, link_label
 from crankwork.report.scheme import crank_gear_scheme
 from crankwork.report.summary import results_method
@@ -226,16 +227,30 @@ def _links(material: Material) -> Table:
     return words.table("links", ("number", "link", "joints", length, *masses, centre), rows, "clcrrrc", "links")
 
 
-def link_lengths(material: Material) -> str:
-    """Return the lengths of the crank and of links with two joints: `OA 50; AB 600`."""
+def link_lengths(material: Material) -> list[Length]:
+    """Return the lengths of the crank and of links with two joints."""
     words, linkage = material.words, material.machine.drawn
     pairs = [[name for name in member.points if len(linkage.owners[name]) > 1] for member in linkage.members]
-    lengths = [f"{''.join(shared)} {_length(member, shared, words)}" for member, shared in
+    lengths = [Length(shared[0], shared[1], _length(member, shared, words)) for member, shared in
                zip(linkage.members, pairs, strict=True) if len(shared) == _PAIR and not member.guide]  # fmt: skip
     if isinstance(linkage.driver, Crank):
         pivot = next((name for name, place in linkage.ground.items() if place == linkage.driver.pivot), "O")
-        lengths.insert(0, f"{pivot}{linkage.driver.pin} {words.shown('point_x', linkage.driver.radius)}")
-    return "; ".join(lengths)
+        lengths.insert(0, Length(pivot, linkage.driver.pin, words.shown("point_x", linkage.driver.radius)))
+    return lengths
+
+
+def fixed_distances(material: Material) -> list[Length]:
+    """Return the distances of fixed pivots from that of the crank along both axes."""
+    words, linkage = material.words, material.machine.drawn
+    if not isinstance(linkage.driver, Crank):
+        return []
+    pivot = next((name for name, place in linkage.ground.items() if place == linkage.driver.pivot), "")
+    joined = [name for name in linkage.ground if name != pivot and len(linkage.owners.get(name, ())) > 1]
+    return [
+        Length(pivot, name, words.shown("point_x", abs(away)), axis)
+        for name in joined if pivot for axis in (0, 1)
+        if (away := linkage.ground[name][axis] - linkage.driver.pivot[axis])
+    ]  # fmt: skip
 
 
 def _length(member: Member, shared: list[str], words: Words) -> str:

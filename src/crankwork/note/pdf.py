@@ -68,6 +68,8 @@ _SETTINGS = """
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
 #show heading: set block(above: 1.3em, below: 0.8em, sticky: true)
 #show heading: set par(justify: false)
+#show figure.caption: set text(hyphenate: false)
+#show figure.caption: set par(justify: false)
 #show heading.where(level: 1): set text(size: 14pt)
 #show heading.where(level: 2): set text(size: 12pt)
 #show heading.where(level: 3): set text(size: 11pt)
@@ -102,7 +104,7 @@ _SETTINGS = """
 #let again(count, words) = (
   table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
 )
-#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, words)
+#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, text(hyphenate: false, words))
 #let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { words; v(-16pt) })
 """
 # one page of any height, on which positions show how high everything is, within a share
