@@ -184,11 +184,12 @@ def _task(material: Material) -> Iterator[Block]:
 def _method(material: Material) -> Iterator[Block]:
     """Yield the paragraph that says how everything is computed."""
     results, words = material.results, material.words
-    yield words.paragraph(
-        "linkage_method",
-        method=results_method(results, words.language),
-        pi=words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
-    )
+    values = {
+        "method": results_method(results, words.language),
+        "pi": words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
+    }
+    before = (*words.sentence("linkage_computed"), " ") if material.machine.linkage is not None else ()
+    yield Paragraph((*before, *words.sentence("linkage_method", **values)))
 
 
 def _parts(material: Material) -> Iterator[Block]:
@@ -210,13 +211,18 @@ def _links(material: Material) -> Table:
     owners = linkage.owners
     rows = []
     numbers = {name: number for number, name in enumerate(links_of(linkage), start=1)}
-    is_listed = linkage.driving.centre or linkage.driving.guide
-    driving = (*([linkage.driving] if is_listed else []), *linkage.geared)
+    driving = (linkage.driving, *linkage.geared) if linkage.driving.centre or linkage.driving.guide else linkage.geared
+    if isinstance(linkage.driver, Crank):
+        # its pin and pivot are points of the driver
+        pivot = next((name for name, place in linkage.ground.items() if place == linkage.driver.pivot), "")
+        ends = {pivot: (0.0, 0.0), linkage.driver.pin: (linkage.driver.radius, 0.0)}
+        points = {name: place for name, place in ends.items() if name} | dict(linkage.driving.points)
+        driving = (replace(linkage.driving, name=linkage.driver.link, points=points), *linkage.geared)
     for member in (*driving, *linkage.members):
         if member.name == linkage.driver.link and member not in driving:
             continue
         number = numbers[member.name]
-        shared = [name for name in member.points if len(owners[name]) > 1]
+        shared = [name for name in member.points if len({*owners[name], member.name}) > 1]
         rows.append((
             str(number), link_label(member.name, words.language), ", ".join(shared), _length(member, shared, words),
             words.shown("body_mass", member.mass) if member.mass else "–",
@@ -509,5 +515,5 @@ SECTIONS = (
     Section("task", (Head("task"), _shaft), machine_has("turning")),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),
-    Section("task", (Head("task"), _task, Text("linkage_computed"), _method, _SHEETS), machine_has("linkage")),
+    Section("task", (Head("task"), _task, _method, _SHEETS), machine_has("linkage")),
 )  # fmt: skip

@@ -66,6 +66,7 @@ _SETTINGS = """
 #set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
 #set par(leading: 0.65em, spacing: 0.75em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
+#show " – ": "~– ".replace("~", sym.space.nobreak)
 #show heading: set block(above: 1.3em, below: 0.8em, sticky: true)
 #show heading: set par(justify: false)
 #show figure.caption: set text(hyphenate: false)

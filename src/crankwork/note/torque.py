@@ -9,6 +9,7 @@ import numpy as np
 
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import in_order
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.document import Block, Citation, Equation, Reference, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -34,8 +35,10 @@ from crankwork.note.parts import (
     school,
     turning,
 )
-from crankwork.note.tables import Column, angle_table, position_tables, quantity_columns
+from crankwork.note.tables import Column, angle_table, position_tables, quantity_columns, tabulated
 
+# terms of links that a table has beside their sum
+_MOST_LINKS = 6
 # share of the largest torque that is rounding
 _NOISE = 1e-6
 _WORK, _EFFICIENCY, _HARMONICS = "artobolevsky_1988, ch. 15", "artobolevsky_1988, ch. 14", "den_hartog_1956, ch. 5"
@@ -106,12 +109,21 @@ def _over_positions(caption: str, label: str, *keys: str) -> Callable[[Material]
     return table
 
 
-def _of_bodies(material: Material) -> list[Column]:
+def _reduced_by_links(material: Material) -> Iterator[Block]:
+    """Yield the reduced inertia at the positions, with the terms of its links where there is room for them."""
+    own = quantity_columns(material, material.nonzero("reduced_inertia", "reduced_inertia_1"), material.columns)
+    of_links = _of_bodies(material, CrankGrid.from_degrees(material.positions))
+    yield from tabulated(
+        material, "reduced", [*(of_links if 1 < len(of_links) <= _MOST_LINKS else ()), *own], "reduced"
+    )
+
+
+def _of_bodies(material: Material, grid: CrankGrid | None = None) -> list[Column]:
     """Return the terms of the bodies in the reduced inertia."""
     results = material.results
     traced_values = in_order([results.trace["reduced_inertia"]])
     known = {traced.key: traced for traced in traced_values if traced.key.startswith("reduced_inertia.")}
-    rows = Program(known)(results.grid)
+    rows = Program(known)(grid or results.grid)
     return quantity_columns(material, [key for key in known if rows[key].any()], rows)
 
 
@@ -200,7 +212,7 @@ SECTIONS = (
     ), machine_has("turning")),
     Section("reduction", (
         Head("reduction"), Text("reduction", _CITED), At("reduction"), Lines("reduction"),
-        Places("reduced", ("reduced_inertia", "reduced_inertia_1"), "reduced", filled=True),
+        _reduced_by_links,
         Shown(("reduced_inertia",)),
     ), every(turning, has("reduced_inertia"))),
     Section("torques", (
