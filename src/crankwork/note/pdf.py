@@ -66,7 +66,6 @@ _SETTINGS = """
 #set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
 #set par(leading: 0.65em, spacing: 0.75em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
-#show " – ": "~– ".replace("~", sym.space.nobreak)
 #show heading: set block(above: 1.3em, below: 0.8em, sticky: true)
 #show heading: set par(justify: false)
 #show figure.caption: set text(hyphenate: false)
@@ -221,7 +220,8 @@ def _runs(runs: Runs, numbers: Numbering) -> str:
 def _run(run: Run, numbers: Numbering) -> str:
     if isinstance(run, Math):
         return _inline(run.content, numbers.language)
-    words = typst_string(numbers.words(run))
+    # no line begins with a dash
+    words = typst_string(numbers.words(run).replace(" – ", "\u00a0– "))
     return f"#strong({words});" if isinstance(run, Bold) else f"#{words};"
 
 
