@@ -29,6 +29,7 @@ _SCHOOLS: Mapping[str, Mapping[str, str]] = MappingProxyType({
         **dict.fromkeys(("whole_inertia", "flywheel_inertia", "wittenbauer_slope"), "norton_2012, ch. 11"),
     },
     "ru": {
+        "den_hartog_1956, ch. 5": "den_hartog_1960, ch. 5",
         **dict.fromkeys(_MOTION, "kolchin_demidov_2008, ch. 6"),
         **dict.fromkeys(_BALANCE, "kolchin_demidov_2008, ch. 8"),
         **dict.fromkeys(_WORK, "artobolevsky_1988, ch. 16"),

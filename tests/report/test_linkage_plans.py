@@ -205,7 +205,7 @@ def test_the_plan_of_a_driving_slider_has_the_force_of_its_driver():
     for at in (40.0, 200.0):
         *_, plan = force_plans(results, at)
         assert plan.links == ("piston",)
-        assert {one.kind for one in plan.forces} == {"load", "pin", "guide", "driver"}
+        assert {one.kind for one in plan.forces} == {"inertia", "pin", "guide", "driver"}
         largest = max(one.size for one in plan.forces)
         assert np.hypot(sum(one.x for one in plan.forces), sum(one.y for one in plan.forces)) < 1e-9 * largest
     assert "link 1" in " ".join(said(drawings(results)["force_plans"]))

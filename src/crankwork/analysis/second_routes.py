@@ -110,9 +110,10 @@ def _running(
         for name, value in frames.items()
     ]
     if machine.has_gravity:
+        ones = np.ones(len(grid))
         down = solved.method.gravity * math.sin(lean), -solved.method.gravity * math.cos(lean)
         loads += [
-            AppliedForce(body.link, centre, *(np.full(len(grid), body.mass * item) for item in down))
+            AppliedForce(body.link, centre, ones * body.mass * down[0], ones * body.mass * down[1])
             for body, centre, *_ in body_motions(mechanism, motion)
         ]
     return OperatingState(mechanism, motion, solved.speed, AppliedLoads(tuple(loads)), machine.angular_acceleration)

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.acting_forces import acting_forces, acting_torques, first_value
 from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.results import Results
 from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.vector_polygons import VectorPolygon, velocities
-from crankwork.dynamics.link_loads import inertia_loads
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.loads.applied_loads import AppliedLoads
+from crankwork.loads.applied_loads import ForceKind
 from crankwork.mechanism.mechanism import Crank
 
-Kind = Literal["load", "inertia"]
 # moments smaller than this share of the largest are left out
 _NEGLIGIBLE = 1e-9
 
@@ -26,10 +24,11 @@ _NEGLIGIBLE = 1e-9
 class LeverForce(NamedTuple):
     """A force on the lever: on which link, the end of the velocity of its point, turned [m/s], and its parts [N]."""
 
-    kind: Kind
+    kind: ForceKind
     link: str
     end: Array
     force: Array
+    before: int = 0  # How many of its kind on its link stand before it
 
     @property
     def size(self) -> float:
@@ -56,7 +55,7 @@ class LeverForce(NamedTuple):
 class LeverTorque(NamedTuple):
     """A torque on a link, and how fast the link turns. [N m], [rad/s]"""
 
-    kind: Kind
+    kind: ForceKind
     link: str
     torque: float
     turning: float
@@ -92,9 +91,11 @@ def zhukovsky_lever(results: Results, degrees: float, links: tuple[str, ...] = (
     if not isinstance(mechanism.driver, Crank) or not speed:
         return None
     running = operating_state(results.solved, linkage_motion(mechanism, CrankGrid.from_degrees([degrees])))
-    parts: tuple[tuple[Kind, AppliedLoads], ...] = (("load", running.loads), ("inertia", inertia_loads(running)))
-    forces = [force for kind, loads in parts for force in _forces(kind, loads, speed)]
-    torques = [torque for kind, loads in parts for torque in _torques(kind, loads, speed)]
+    forces = [
+        LeverForce(acting.kind, acting.link, _turned(acting.point, speed), acting.force, acting.before)
+        for acting in acting_forces(running)
+    ]
+    torques = [LeverTorque(load.kind, load.link, load.torque, load.rate * speed) for load in acting_torques(running)]
     # a force square to its velocity has only the moment of rounding errors
     sizes = [force.size * float(np.hypot(*force.end)) for force in forces] + [abs(torque.moment) for torque in torques]
     most = max(sizes, default=0.0)
@@ -124,26 +125,4 @@ def _clockwise(vector: Array) -> Array:
 
 def _turned(point: PointMotion, speed: float) -> Array:
     """Return the velocity of a point, turned clockwise. [m/s]"""
-    return _clockwise(np.array([float(np.ravel(item.position_1)[0]) for item in point]) * speed)
-
-
-def _forces(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverForce]:
-    """Yield forces, those at one point of a link as one."""
-    result: dict[tuple[str, tuple[float, ...]], LeverForce] = {}
-    for load in loads.forces:
-        end = _turned(load.point, speed)
-        place = tuple(round(float(np.ravel(side.position)[0]), 9) for side in load.point)
-        force = np.array([float(np.ravel(part)[0]) for part in (load.x, load.y)])
-        same = result.get((load.link, place))
-        result[load.link, place] = LeverForce(kind, load.link, end, force if same is None else same.force + force)
-    yield from (value for value in result.values() if value.size)
-
-
-def _torques(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverTorque]:
-    """Yield torques, those on one link as one."""
-    result: dict[str, LeverTorque] = {}
-    for load in loads.torques:
-        torque, turning = (float(np.ravel(part)[0]) for part in (load.torque, load.angle_1))
-        same = result.get(load.link)
-        result[load.link] = LeverTorque(kind, load.link, torque + (same.torque if same else 0.0), turning * speed)
-    yield from result.values()
+    return _clockwise(np.array([first_value(item.position_1) for item in point]) * speed)

@@ -85,12 +85,12 @@ def inertia_loads(running: OperatingState) -> AppliedLoads:
                 _inertia_force(body.mass, centre_acceleration(q_2, w, q_1, eps), f"{name}.{axis}")
                 for axis, (_, q_1, q_2) in zip("xy", centre, strict=True)
             )
-            forces.append(AppliedForce(body.link, centre, x, y))
+            forces.append(AppliedForce(body.link, centre, x, y, "inertia"))
         if not is_zero(body.inertia):
             turning = link_angular_acceleration(angle_2, w, angle_1, eps)
             turning = named(turning, f"link_angular_acceleration.{name}")
             torque = named(link_inertia_torque(body.inertia, turning), f"link_inertia_torque.{name}")
-            torques.append(AppliedTorque(body.link, torque, angle_1))
+            torques.append(AppliedTorque(body.link, torque, angle_1, "inertia"))
     return AppliedLoads(tuple(forces), tuple(torques))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value
@@ -17,6 +17,8 @@ from crankwork.mechanism.joints import SlidingJoint, joints, links_of_points
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
 
+ForceKind = Literal["load", "weight", "inertia"]
+
 
 class AppliedForce(NamedTuple):
     """A force on a link, where it acts, and its components along the fixed axes, arrays of shape (n,). [m], [N]"""
@@ -25,6 +27,7 @@ class AppliedForce(NamedTuple):
     point: PointMotion
     x: Value
     y: Value
+    kind: ForceKind = "load"
 
 
 class AppliedTorque(NamedTuple):
@@ -33,6 +36,7 @@ class AppliedTorque(NamedTuple):
     link: str
     torque: Value
     angle_1: Value
+    kind: ForceKind = "load"
 
 
 @dataclass(frozen=True)

@@ -489,9 +489,8 @@ def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
     for body in mechanism.bodies:
         x, y = (weight_along(body.mass, gravity, part) for part in (math.cos(load.direction), math.sin(load.direction)))
         x, y = named(x, f"load_x.{body.link}.weight"), named(y, f"load_y.{body.link}.weight")
-        forces.append(
-            AppliedForce(body.link, centre_of_mass(body, motion), broadcast(x, motion.grid), broadcast(y, motion.grid))
-        )
+        x, y = broadcast(x, motion.grid), broadcast(y, motion.grid)
+        forces.append(AppliedForce(body.link, centre_of_mass(body, motion), x, y, "weight"))
     return AppliedLoads(tuple(forces))
 
 

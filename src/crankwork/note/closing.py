@@ -10,7 +10,7 @@ import numpy as np
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
-from crankwork.note.data import GEAR, cycle_keys, link_lengths
+from crankwork.note.data import GEAR, cycle_keys, fixed_distances, link_lengths
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
@@ -199,26 +199,32 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     """Yield the machine as it stands, the results that matter most, and whether the checks hold."""
     results, words, summary = material.results, material.words, material.results.summary
     film = film_of(results, language=words.language) if material.options.figures else None
+    lengths = link_lengths(material) if drawn(material) else []
+    if film is not None and lengths:
+        measured = [*lengths, *fixed_distances(material)]
+        film = film_of(results, language=words.language, still=film.rest, lengths=measured)
     if film is not None:
         title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
         sentences = words.sentence("machine_drawn", figure=Reference("f:machine"), value=place)
-        lengths = link_lengths(material) if drawn(material) else ""
         if lengths:
-            sentences += (" ", *words.sentence("machine_lengths", unit=words.unit("point_x"), lengths=lengths))
-        yield Paragraph(sentences)
+            texts = "; ".join(f"{length.start}{length.end} {length.text}" for length in lengths)
+            sentences += (" ", *words.sentence("machine_lengths", unit=words.unit("point_x"), lengths=texts))
+        yield Paragraph((*sentences, " ", *words.sentence("see_table", tables=Reference("t:glance"))))
         sizes = ("bore", "stroke", "crank_radius", "rod_length") if material.has_piston else ()
         known = [
             f"{words.symbol(key)} = {words.amount(summary[key], 'mm', digits=4)}" for key in sizes if key in summary
         ]
         caption = ", ".join((f"{title}: {known[0]}", *known[1:])) if known else title
+        caption = words.phrase("machine_measured", unit=words.unit("point_x")) if lengths else caption
         yield Figure(film.still(), caption, film.about or title, label="f:machine", high=_HIGHEST)
     # a linkage has a joint there
     numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
     keys = [key for kind in numbers for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     keys = [key for key in summary if key != "speed"] if material.machine.rotor is not None else keys
-    yield words.paragraph("see_table", tables=Reference("t:glance"))
+    if film is None:
+        yield words.paragraph("see_table", tables=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.unmet:
         yield Paragraph((capital(warning_text(results, words.language)),))

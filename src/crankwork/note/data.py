@@ -23,6 +23,7 @@ from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import SUBJECTS
+from crankwork.report.dimensions import Length
 from crankwork.report.display import key_unit, link_label
 from crankwork.report.scheme import crank_gear_scheme
 from crankwork.report.summary import results_method
@@ -183,11 +184,12 @@ def _task(material: Material) -> Iterator[Block]:
 def _method(material: Material) -> Iterator[Block]:
     """Yield the paragraph that says how everything is computed."""
     results, words = material.results, material.words
-    yield words.paragraph(
-        "linkage_method",
-        method=results_method(results, words.language),
-        pi=words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
-    )
+    values = {
+        "method": results_method(results, words.language),
+        "pi": words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
+    }
+    before = (*words.sentence("linkage_computed"), " ") if material.machine.linkage is not None else ()
+    yield Paragraph((*before, *words.sentence("linkage_method", **values)))
 
 
 def _parts(material: Material) -> Iterator[Block]:
@@ -209,13 +211,18 @@ def _links(material: Material) -> Table:
     owners = linkage.owners
     rows = []
     numbers = {name: number for number, name in enumerate(links_of(linkage), start=1)}
-    is_listed = linkage.driving.centre or linkage.driving.guide
-    driving = (*([linkage.driving] if is_listed else []), *linkage.geared)
+    driving = (linkage.driving, *linkage.geared) if linkage.driving.centre or linkage.driving.guide else linkage.geared
+    if isinstance(linkage.driver, Crank):
+        # its pin and pivot are points of the driver
+        pivot = next((name for name, place in linkage.ground.items() if place == linkage.driver.pivot), "")
+        ends = {pivot: (0.0, 0.0), linkage.driver.pin: (linkage.driver.radius, 0.0)}
+        points = {name: place for name, place in ends.items() if name} | dict(linkage.driving.points)
+        driving = (replace(linkage.driving, name=linkage.driver.link, points=points), *linkage.geared)
     for member in (*driving, *linkage.members):
         if member.name == linkage.driver.link and member not in driving:
             continue
         number = numbers[member.name]
-        shared = [name for name in member.points if len(owners[name]) > 1]
+        shared = [name for name in member.points if len({*owners[name], member.name}) > 1]
         rows.append((
             str(number), link_label(member.name, words.language), ", ".join(shared), _length(member, shared, words),
             words.shown("body_mass", member.mass) if member.mass else "–",
@@ -226,16 +233,30 @@ def _links(material: Material) -> Table:
     return words.table("links", ("number", "link", "joints", length, *masses, centre), rows, "clcrrrc", "links")
 
 
-def link_lengths(material: Material) -> str:
-    """Return the lengths of the crank and of links with two joints: `OA 50; AB 600`."""
+def link_lengths(material: Material) -> list[Length]:
+    """Return the lengths of the crank and of links with two joints."""
     words, linkage = material.words, material.machine.drawn
     pairs = [[name for name in member.points if len(linkage.owners[name]) > 1] for member in linkage.members]
-    lengths = [f"{''.join(shared)} {_length(member, shared, words)}" for member, shared in
+    lengths = [Length(shared[0], shared[1], _length(member, shared, words)) for member, shared in
                zip(linkage.members, pairs, strict=True) if len(shared) == _PAIR and not member.guide]  # fmt: skip
     if isinstance(linkage.driver, Crank):
         pivot = next((name for name, place in linkage.ground.items() if place == linkage.driver.pivot), "O")
-        lengths.insert(0, f"{pivot}{linkage.driver.pin} {words.shown('point_x', linkage.driver.radius)}")
-    return "; ".join(lengths)
+        lengths.insert(0, Length(pivot, linkage.driver.pin, words.shown("point_x", linkage.driver.radius)))
+    return lengths
+
+
+def fixed_distances(material: Material) -> list[Length]:
+    """Return the distances of fixed pivots from that of the crank along both axes."""
+    words, linkage = material.words, material.machine.drawn
+    if not isinstance(linkage.driver, Crank):
+        return []
+    pivot = next((name for name, place in linkage.ground.items() if place == linkage.driver.pivot), "")
+    joined = [name for name in linkage.ground if name != pivot and len(linkage.owners.get(name, ())) > 1]
+    return [
+        Length(pivot, name, words.shown("point_x", abs(away)), axis)
+        for name in joined if pivot for axis in (0, 1)
+        if (away := linkage.ground[name][axis] - linkage.driver.pivot[axis])
+    ]  # fmt: skip
 
 
 def _length(member: Member, shared: list[str], words: Words) -> str:
@@ -498,5 +519,5 @@ SECTIONS = (
     ), machine_has("rotor")),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),
-    Section("task", (Head("task"), _task, Text("linkage_computed"), _method, _SHEETS), machine_has("linkage")),
+    Section("task", (Head("task"), _task, _method, _SHEETS), machine_has("linkage")),
 )  # fmt: skip

@@ -7,15 +7,11 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.force_plans import constructed_forces, force_plans
 from crankwork.analysis.input_loads import stated_loads
 from crankwork.analysis.mechanism import torque_by_routes
 from crankwork.analysis.rounding_noise import without_rounding
-from crankwork.analysis.vector_polygons import worked_position
-from crankwork.formula.calculation_lines import ValueLine
-from crankwork.locale import translate
-from crankwork.note.document import Block, Cell, Citation, Equation, Math, Paragraph, Reference, Run, Runs, Table
-from crankwork.note.layout import EQUALS, Box, Digits, PrintedEquation, Row, Sign, Upright, row
+from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
+from crankwork.note.force_equations import compared_forces, equilibrium, has_polygons, inertia_of_links
 from crankwork.note.material import Material
 from crankwork.note.parts import (
     At,
@@ -38,12 +34,9 @@ from crankwork.note.parts import (
 )
 from crankwork.note.readings import ROUNDING
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
-from crankwork.note.vector_equations import READING, vector_box
-from crankwork.report.display import key_unit, link_numbers
-from crankwork.report.forces import force_symbol
+from crankwork.report.display import key_unit
 from crankwork.report.notices import skipped_figure_notes
 from crankwork.report.tables import any_nonzero
-from crankwork.units import to_si
 
 _STATICS, _WORK = "artobolevsky_1988, ch. 13", "artobolevsky_1988, ch. 15"
 _ALONG = ("gas_pressure", "gas_force", "piston_acceleration", "inertia_force", "weight_force", "piston_force")
@@ -107,7 +100,8 @@ def _to_six_decimals(material: Material) -> Table | None:
 
 def _undrawn(material: Material) -> Iterator[Block]:
     """Yield which figures are left out, and why."""
-    for notice in skipped_figure_notes(material.results, material.words.language):
+    # what is zero throughout is said in the text
+    for notice in skipped_figure_notes(material.results, material.words.language, zeros=False):
         yield Paragraph((f"{notice[0].upper()}{notice[1:]}.",))
 
 
@@ -129,8 +123,8 @@ def _sizes(material: Material) -> Iterator[Block]:
     force["load"] = words.phrase("sizes_load", force=force["load"]) if process else ""
     if "weight" not in kinds:
         del sizes["weight"]
-    omitted = "weight" not in kinds and share > _NOTABLE
-    verdict = "weight_left_out" if omitted else f"ruled_by_{max(sizes, key=sizes.__getitem__)}"
+    omitted = "weight_left_out" if share > _NOTABLE else "weight_small"
+    verdict = omitted if "weight" not in kinds else f"ruled_by_{max(sizes, key=sizes.__getitem__)}"
     ruling = words.sentence(verdict, share=words.fixed(100.0 * share, 0))
     yield Paragraph((*words.sentence("sizes", **force), " ", *ruling))
 
@@ -155,65 +149,6 @@ def _lever(material: Material) -> Iterator[Block]:
     percent = [words.number(difference, digits=2) for difference in (100.0 * gaps).tolist()]
     shown.append(Column((words.column("difference"),), percent))
     yield from tabulated(material, "routes", shown, "routes")
-
-
-def _has_polygons(material: Material) -> bool:
-    return bool(force_plans(material.results, worked_position(material.results)))
-
-
-def _equilibrium(material: Material) -> Iterator[Block]:
-    """Yield the equation of the forces on each group, from the last one to the crank."""
-    words, numbers = material.words, {name: int(number) for name, number in link_numbers(material.results).items()}
-    plans = force_plans(material.results, worked_position(material.results))
-    solved, lines, texts = set[str](), list[Row](), list[str]()
-    for plan in plans:
-        parts, written = list[Box](), list[str]()
-        key = "drawing.links" if len(plan.links) > 1 else "drawing.link"
-        head = translate(key, words.language, links=", ".join(str(numbers[link]) for link in plan.links))
-        for force in plan.forces:
-            name = force_symbol(force, numbers, words.language).strip("$").replace(" ", ",")
-            # of a guide the line of action is known
-            known = 2 if force.kind == "load" or force.name in solved else 1 if force.kind == "guide" else 0
-            # the group before acts on this one as this one on it, the other way
-            sign = "−" if force.name in solved else "+"
-            parts += [*([Sign(sign)] if parts or sign == "−" else []), vector_box(name, known, words)]
-            written.append(f"{sign} {name}")
-        solved |= {force.name for force in plan.forces}
-        lines.append(row(*parts, EQUALS, Digits("0"), Upright(f"  ({head})")))
-        texts.append(f"{' '.join(written).removeprefix('+ ')} = 0")
-    if lines:
-        yield words.paragraph("equilibrium")
-        yield Equation(ValueLine("", 0.0), printed=PrintedEquation(tuple(lines), "; ".join(texts)))
-
-
-def _compared(material: Material) -> Iterator[Block]:
-    """Yield the reactions as they are read on the force plans beside the calculated ones."""
-    results, words, degrees = material.results, material.words, worked_position(material.results)
-    drawing = material.drawn.get("force_plans") if material.full or material.order != "en" else None
-    plots = iter(drawing.plots if drawing is not None else ())
-    numbers = {name: int(number) for name, number in link_numbers(results).items()}
-    unit, solved, rows, scales = words.unit("joint_force"), set[str](), list[tuple[Cell, ...]](), list[Run]()
-    for plan in force_plans(results, degrees):
-        plot = next(plots, None) if len(plan.forces) > 2 else None
-        shown = (plot.x[1] - plot.x[0]) / plot.box.width if plot is not None else 0.0
-        scale = float(to_si(shown, key_unit("joint_force")))
-        lengths = constructed_forces(results, degrees, plan, solved, scale, READING) if shown else {}
-        for force, length in lengths.items():
-            name = force_symbol(force, numbers, words.language).strip("$").replace(" ", ",")
-            size, off = words.shown("joint_force", force.size, digits=4), 100.0 * (length * scale / force.size - 1.0)
-            read = words.fixed(length, 1), words.number(shown * length, digits=4)
-            rows.append((Math(name), *read, size, unit, words.fixed(off, 2)))
-        if lengths:
-            links = ", ".join(str(numbers[link]) for link in plan.links)
-            mark = f" = {words.number(shown, digits=4)} {unit}/{words.unit('point_x')} ({links})"
-            scales += [*(["; "] if scales else []), Math("μ_F"), mark]
-        solved |= {force.name for force in plan.forces}
-    if rows:
-        titles = "vector", "on_plan", "by_plan", "analytic", "unit", "deviation"
-        table = words.table("compared_forces", titles, rows, "crrrcr", "t:compared_forces")
-        values: dict[str, Run | Runs] = {"reading": words.number(READING), "scales": tuple(scales)}
-        yield words.paragraph("forces_compared", table=Reference(table.label), **values)
-        yield table
 
 
 def _route(name: str, values: Array, material: Material) -> Column:
@@ -269,11 +204,12 @@ SECTIONS = (
         Shown(("process_force", "joint_forces")),
     ), every(_is_loaded, driven)),
     Section("forces", (
-        Head("linkage_forces"), When(_has_bodies, (Head("inertia_loads", 2), *_INERTIA_OF_LINKS)),
-        Head("reactions", 2), Text("reactions"), _equilibrium,
-        When(either(full, lacks(_has_polygons)), (At("joint_forces"), Lines("joint_forces", first=True))),
+        Head("linkage_forces"), _sizes,
+        When(_has_bodies, (Head("inertia_loads", 2), *_INERTIA_OF_LINKS, inertia_of_links)),
+        Head("reactions", 2), Text("reactions"), equilibrium,
+        When(either(full, lacks(has_polygons)), (At("joint_forces"), Lines("joint_forces", first=True))),
         Places("reactions", _IN_JOINTS, "reactions", filled=True),
-        Shown(("process_force", "joint_forces", "force_plans")), _compared, _undrawn, _sizes,
+        Shown(("process_force", "joint_forces", "force_plans")), compared_forces, _undrawn,
         Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),
     ), _is_loaded),
 )  # fmt: skip

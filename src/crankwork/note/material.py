@@ -370,22 +370,29 @@ class Material:
             # of crankpins that differ the first
             firsts = {kind_of(name): name for name in reversed(drawn)}
             drawn = [name for name in drawn if kind_of(name) not in _OF_CRANKPINS or name in firsts.values()]
-        labels: dict[str, list[str]] = {"tables": [table.label for table in shown_tables if table.label]}
-        for name in drawn:
-            is_alone = name in _CONSTRUCTED and not labels["tables"]
-            labels.setdefault("constructions" if is_alone else "figures", []).append(f"f:{name}")
-        told = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
-        if {"tables", "figures"} <= told.keys():
-            yield self.words.paragraph("see_both", **told)
-        elif told:
-            sentences = [run for what in told for run in (" ", *self.words.sentence(f"see_{what}", **told))]
-            yield Paragraph(tuple(sentences[1:]))
+        sentences = [*self._referring([table.label for table in shown_tables if table.label], drawn)]
+        if sentences:
+            yield Paragraph(tuple(run for sentence in sentences for run in (" ", *sentence))[1:])
         for row in self._rows(drawn, shown_tables):
             yield from row
             for name in (block.name for block in row if isinstance(block, Figure)):
                 read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
                 if read is not None:
                     yield read
+
+    def _referring(self, tables: Sequence[str], names: Sequence[str]) -> Iterator[Runs]:
+        """Yield the sentences that refer to tables by label and to figures by name; a linkage has many kinds."""
+        labels: dict[str, list[str]] = {"tables": [*tables]}
+        for name in names if self.has_piston else ():
+            is_alone = name in _CONSTRUCTED and not tables
+            labels.setdefault("constructions" if is_alone else "figures", []).append(f"f:{name}")
+        told = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
+        if {"tables", "figures"} <= told.keys():
+            yield self.words.sentence("see_both", **told)
+        else:
+            yield from (self.words.sentence(f"see_{what}", **told) for what in told)
+        for name in () if self.has_piston else names:
+            yield self.words.sentence("figure_shows", what=self._title(name), figure=listed([f"f:{name}"]))
 
     def _reference(self, what: str, labels: list[str]) -> Runs:
         """Return how a sentence names tables or figures: `figures 3, 4`."""

@@ -69,6 +69,8 @@ _SETTINGS = """
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
 #show heading: set block(above: 1.3em, below: 0.8em, sticky: true)
 #show heading: set par(justify: false)
+#show figure.caption: set text(hyphenate: false)
+#show figure.caption: set par(justify: false)
 #show heading.where(level: 1): set text(size: 14pt)
 #show heading.where(level: 2): set text(size: 12pt)
 #show heading.where(level: 3): set text(size: 11pt)
@@ -222,7 +224,8 @@ def _runs(runs: Runs, numbers: Numbering) -> str:
 def _run(run: Run, numbers: Numbering) -> str:
     if isinstance(run, Math):
         return _inline(run.content, numbers.language)
-    words = typst_string(numbers.words(run))
+    # no line begins with a dash
+    words = typst_string(numbers.words(run).replace(" – ", "\u00a0– "))
     return f"#strong({words});" if isinstance(run, Bold) else f"#{words};"
 
 

@@ -27,8 +27,8 @@ from crankwork.quantities.quantity import own_name
 from crankwork.report.display import link_label
 
 _FUNCTION = re.compile(r"(?P<name>sin|cos|tan|tg|ctg|arcsin|arccos|arctan|arctg|ln|lg|exp) ?(?P<rest>\S.*)")
-# the parts of a relative acceleration
-_RAISED = re.compile(r"(?P<base>a_.+)\^(?P<above>[ntτkr])")
+# the parts of a relative acceleration, and of a force along and across a link
+_RAISED = re.compile(r"(?P<base>[aRN]_.+)\^(?P<above>[ntτkr])")
 _SUM = re.compile(r" ?([+−=]) ?")
 _MULTIPLE = re.compile(r"(?P<count>\d+(?:[.,]\d+)?)(?P<rest>\D.*)")
 _SUBSTANCE = re.compile(r"(?P<base>\w)_(?P<below>[CHNO][CHNO₀-₉]*)")

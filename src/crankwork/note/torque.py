@@ -9,6 +9,7 @@ import numpy as np
 
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import in_order
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.document import Block, Citation, Equation, Reference, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -34,8 +35,10 @@ from crankwork.note.parts import (
     school,
     turning,
 )
-from crankwork.note.tables import Column, angle_table, position_tables, quantity_columns
+from crankwork.note.tables import Column, angle_table, position_tables, quantity_columns, tabulated
 
+# terms of links that a table has beside their sum
+_MOST_LINKS = 6
 # share of the largest torque that is rounding
 _NOISE = 1e-6
 _WORK, _EFFICIENCY, _HARMONICS = "artobolevsky_1988, ch. 15", "artobolevsky_1988, ch. 14", "den_hartog_1956, ch. 5"
@@ -74,10 +77,10 @@ def _losses(material: Material) -> Iterator[Block]:
     if drive.efficiency == 1 and material.machine.friction:
         # a section of its own says what rubs
         return
-    yield words.heading("efficiency", 2)
     if drive.efficiency == 1:
         yield words.paragraph("no_losses")
         return
+    yield words.heading("efficiency", 2)
     yield words.paragraph(
         "efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency, digits=material.digits)
     )
@@ -88,6 +91,11 @@ def _losses(material: Material) -> Iterator[Block]:
     if drive.exact_efficiency is not None:
         used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency, digits=material.digits)
         yield words.paragraph("efficiency_rounded", used=used, exact=exact)
+
+
+def _is_lossy(material: Material) -> bool:
+    """Return whether an efficiency divides or multiplies the torque."""
+    return material.machine.drive.efficiency != 1
 
 
 def _over_positions(caption: str, label: str, *keys: str) -> Callable[[Material], Iterator[Table]]:
@@ -101,12 +109,21 @@ def _over_positions(caption: str, label: str, *keys: str) -> Callable[[Material]
     return table
 
 
-def _of_bodies(material: Material) -> list[Column]:
+def _reduced_by_links(material: Material) -> Iterator[Block]:
+    """Yield the reduced inertia at the positions, with the terms of its links where there is room for them."""
+    own = quantity_columns(material, material.nonzero("reduced_inertia", "reduced_inertia_1"), material.columns)
+    of_links = _of_bodies(material, CrankGrid.from_degrees(material.positions))
+    yield from tabulated(
+        material, "reduced", [*(of_links if 1 < len(of_links) <= _MOST_LINKS else ()), *own], "reduced"
+    )
+
+
+def _of_bodies(material: Material, grid: CrankGrid | None = None) -> list[Column]:
     """Return the terms of the bodies in the reduced inertia."""
     results = material.results
     traced_values = in_order([results.trace["reduced_inertia"]])
     known = {traced.key: traced for traced in traced_values if traced.key.startswith("reduced_inertia.")}
-    rows = Program(known)(results.grid)
+    rows = Program(known)(grid or results.grid)
     return quantity_columns(material, [key for key in known if rows[key].any()], rows)
 
 
@@ -128,6 +145,10 @@ def _numbered(symbol: str, position: int) -> str:
 def _cylinders(count: Callable[[int], bool]) -> Condition:
     """Return the condition on how many cylinders turn a shaft together."""
     return lambda material: material.machine.engine is not None and count(len(material.machine.engine.layout.places))
+
+
+def _has_static(material: Material) -> bool:
+    return bool(material.nonzero("static_torque"))
 
 
 def _states(name: str) -> Condition:
@@ -182,7 +203,7 @@ SECTIONS = (
         _at_all("dynamic_torque"),
     ), _IS_TABLE),
     Section("driving", (
-        Head("driving"), Text("torques"), _losses, Text("driving"), _at_all("driving_torque"),
+        Head("driving"), Text("torques"), _losses, When(_is_lossy, (Text("driving"),)), _at_all("driving_torque"),
         _over_positions("table_torque", "torque", *_OF_TABLE), Shown(("torques",)),
     ), every(_IS_TABLE, has("driving_torque"))),
     Section("moments", (
@@ -194,13 +215,14 @@ SECTIONS = (
     ), machine_has("turning")),
     Section("reduction", (
         Head("reduction"), Text("reduction", _CITED), At("reduction"), Lines("reduction"),
-        Places("reduced", ("reduced_inertia", "reduced_inertia_1"), "reduced", filled=True),
+        _reduced_by_links,
         Shown(("reduced_inertia",)),
     ), every(turning, has("reduced_inertia"))),
     Section("torques", (
-        Head("torques"), Text("torques"), At("torques"),
-        Lines("torques", ("static_torque", "dynamic_torque", "balancing_torque")), _losses, Text("driving"),
-        Lines("torques", ("driving_torque",)), Places("table_torque", _TORQUES, "torque", filled=True),
+        Head("torques"), When(_has_static, (Text("torques"),)), When(lacks(_has_static), (Text("torques_dynamic"),)),
+        At("torques"), Lines("torques", ("static_torque", "dynamic_torque", "balancing_torque")), _losses,
+        When(_is_lossy, (Text("driving"), Lines("torques", ("driving_torque",)))),
+        Places("table_torque", _TORQUES, "torque", filled=True),
         Shown(("torques",)),
     ), every(turning, has("reduced_inertia"))),
     Section("harmonics", (

@@ -23,6 +23,7 @@ from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
+from crankwork.report.dimensions import Length
 from crankwork.report.display import displayed, for_readers, key_unit, label, link_label, symbol
 from crankwork.report.drawn_cylinders import engine_sketch
 from crankwork.report.drawn_links import linkage_sketch
@@ -33,7 +34,7 @@ from crankwork.show.formats import FILMS, FORMATS, Progress
 from crankwork.show.scene import SMALL, TEXT, ChartBox, Drawing, Item, Pen, Text, flow_rows, line, rectangle, text_width
 from crankwork.show.theme import Theme
 
-_MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 8.0, 4.5, 80.0
+_MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 10.5, 4.5, 80.0
 # tints of the key to the pressure, and how wide each is [mm]
 _TINTS, _TINT = 6, 4.0
 # about a view that is looked at alone [mm]
@@ -54,13 +55,15 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     path: AnimationPath | None = None,
     forces: bool = False,
     still: int | None = None,
+    lengths: Sequence[Length] = (),
 ) -> Animation:
     """Return the mechanism of a machine as a drawing that moves, one cycle after the other, or to and fro.
 
     Lengths are to scale and the motion is exact at each frame. Gas, firing and forces are shown of results. Links have
     the numbers of the structure, or follow group after group where only a mechanism is known. `seconds`: time of a
     turn; `frames`: of a cycle, else as many as the eye needs; `way`: motion of the crank, that of a transient
-    simulation in its own time; `forces`: whether arrows show those in pins and joints; `still`: the only frame shown.
+    simulation in its own time; `forces`: whether arrows show those in pins and joints; `still`: the only frame shown;
+    `lengths`: measured there.
     """
     if (frames and frames < 8) or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
@@ -81,8 +84,9 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
         shape = skeleton(path.mechanism, _links(known))
         columns = _columns(results, path.degrees, forces=forces) if results is not None else {}
         sketch = linkage_sketch(
-            shape, sample_motion(path.mechanism, path.degrees), known, columns, _named_forces(columns, language), still
-        )
+            shape, sample_motion(path.mechanism, path.degrees), known, columns, _named_forces(columns, language), still,
+            lengths,
+        )  # fmt: skip
         keys = _acting(path.mechanism, shape, _named_forces(columns, language), language)
         about = [*_lengths(path.mechanism, None, language), *_members(shape, language), time]
         tinted = [item.name.removeprefix("gas.") for item in sketch.parts if item.name.startswith("gas.")]
@@ -90,12 +94,20 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     return _film(sketch, path, seconds, known, "; ".join(about), keys, pressures, language)
 
 
-def film_of(results: Results, *, language: Language = "en", frames: int = 0, forces: bool = False) -> Animation | None:
+def film_of(
+    results: Results,
+    *,
+    language: Language = "en",
+    frames: int = 0,
+    forces: bool = False,
+    still: int | None = None,
+    lengths: Sequence[Length] = (),
+) -> Animation | None:
     """Return the machine of results as it moves, if it has a mechanism, and one that is driven by what it can turn."""
     if not results.machine.moves:
         return None
     try:
-        return moving_drawing(results, language=language, frames=frames, forces=forces)
+        return moving_drawing(results, language=language, frames=frames, forces=forces, still=still, lengths=lengths)
     except GeometryError:
         # a linkage that cannot turn fully has a notice that says so
         return None
@@ -203,8 +215,8 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
         )
         foot += _ROW
         rows = flow_rows(keys, "; ", (width - 2 * _MARGIN) / WIDER, partial(text_width, height=SMALL))
-        texts += [Text((_MARGIN, foot + 1.5 + _KEY * k), row_text, SMALL) for k, row_text in enumerate(reversed(rows))]
-        foot += _KEY * len(rows) + 1.5
+        texts += [Text((_MARGIN, foot + 3.0 + _KEY * k), row_text, SMALL) for k, row_text in enumerate(reversed(rows))]
+        foot += _KEY * len(rows) + 3.0
         # left out with the forces
         below.append(part("force.scale", texts, (0.0, 0.0)))
     height = float(tall) + 2 * _MARGIN + foot

@@ -16,6 +16,7 @@ from crankwork.analysis.skeleton import Member, MovingFrame, Skeleton, guide_pos
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import rod_name
 from crankwork.mechanism.linkage import GROUND
+from crankwork.report.dimensions import Length, dimension_lines
 from crankwork.report.sketch import Sketch, forces_in_joints, tints, with_forces
 from crankwork.show.animation import Part, part
 from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, line, literal, rectangle, rotation_arrow
@@ -273,15 +274,16 @@ def _runs_along(bar: Bar, slot: Slot) -> bool:
     return bool(np.ptp(ends[:, 1]) < 1.0 and ends[:, 0].max() > slot.start and ends[:, 0].min() < slot.end)
 
 
-def linkage_sketch(
+def linkage_sketch(  # noqa: PLR0913 - a linkage, and what is shown of it
     shape: Skeleton,
     moving: SampledMotion,
     machine: Machine | None = None,
     columns: Mapping[str, Array] | None = None,
     forces: Mapping[str, str] | None = None,
     frame: int | None = None,
+    lengths: Sequence[Length] = (),
 ) -> Sketch:
-    """Return a linkage as it is drawn over all its angles; `frame`: the only one that is looked at.
+    """Return a linkage as it is drawn over all its angles; `frame`: the only one that is looked at, with `lengths`.
 
     `columns`: gas of the chambers of a machine, and forces in joints where they are to be drawn, by key, shape (n,);
     `forces`: what is written at them, by joint.
@@ -309,6 +311,12 @@ def linkage_sketch(
         pivot_of_crank = drawn.points[next(iter(shape.pivots))][0]
         (x, y), (u, v) = drawn.points[shape.pin][:2] - pivot_of_crank
         items += rotation_arrow(pivot_of_crank * UNIT, _ROTATION, x * v - y * u)
+    if lengths and frame is not None:
+        standing = {name: point[frame] * UNIT for name, point in drawn.points.items()}
+        letters = np.vstack([label.places[frame] for label in texts]) * UNIT
+        measured, covered = dimension_lines(lengths, standing, letters)
+        items += measured
+        low, high = np.minimum(low, covered.min(axis=0) - _LETTERS), np.maximum(high, covered.max(axis=0) + _LETTERS)
     sketch = Sketch([*items, *walls, *ground(drawn)], parts, low, high, scale * UNIT)
     points = {name: point * UNIT for name, point in drawn.points.items()}
     return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}), frame)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -12,9 +12,11 @@ from crankwork.analysis import Array
 from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.force_plans import ForcePolygon, PolygonForce, force_plans
 from crankwork.analysis.skeleton import skeleton
-from crankwork.locale import translate
+from crankwork.analysis.vector_polygons import Kind
+from crankwork.locale import texts, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
+from crankwork.report.display import symbol
 from crankwork.report.gas import HEIGHT, banded_sheet, strokes
 from crankwork.report.look import (
     Drawn,
@@ -26,6 +28,7 @@ from crankwork.report.look import (
     position_sign,
     position_text,
 )
+from crankwork.report.plans import vector_mark
 from crankwork.show.canvas import GREY, Canvas, plain
 from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_remark
 from crankwork.show.chart_layout import FINE, current_layout, is_narrow, points_per_mm, round_scale, scaled_height
@@ -39,7 +42,7 @@ _HIGHEST, _WHOLE = 230.0, 560.0
 _TWO = 560.0
 # how far apart forces are drawn that coincide, and what does: nothing else is set aside, so that plans close [pt]
 _LANE, _NEAR, _LANES = 6.0, 0.8, (0, 1, -1, 2, -2, 3, -3)
-_LOAD, _REACTION = 0.45, 0.9
+_LOAD, _REACTION, _LEAST = 0.45, 0.9, 12.0
 # a group of fewer forces has no plan, only two that are equal
 _FEWEST, _MOST = 3, 4
 
@@ -171,7 +174,7 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
     middle, half = (ends.min(axis=0) + ends.max(axis=0)) / 2, np.array([width, height]) / 2 / unit
     x, y = zip(*(middle - half, middle + half), strict=True)
     graph = Graph(paper, ChartBox(left, top + _HEAD, width, height), x, y, language, to_scale=False)
-    marks = []
+    marks = list[tuple[str, float, float]]()
     corners = np.array([graph.point(*end) for end in ends])
     sides = _separated_sides(corners)
     for index, force in enumerate(plan.forces):
@@ -179,7 +182,8 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
         for corner, moved in zip(corners[index : index + 2], sides[index], strict=True):
             if np.any(corner != moved):
                 paper.line([corner[0], moved[0]], [corner[1], moved[1]], width=0.45, colour=GREY)
-        paper.arrow(start, end, width=_REACTION if force.kind != "load" else _LOAD, style=SOLID)
+        paper.arrow(start, end, width=_LOAD if force.is_load else _REACTION, style=SOLID)
+        marks += _components(paper, force, (start, end), force_symbol(force, numbers, language), language)
         marks.append((force_symbol(force, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
     label_marks(paper, marks, dot=0.0)
     links = ", ".join(str(numbers.get(link, link)) for link in plan.links)
@@ -194,6 +198,26 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
     for count, key in enumerate(keys):
         paper.text(list_corner[0], list_corner[1] + 12 + _ROW * (len(plan.forces) + count), key)
     return scale
+
+
+def _components(
+    paper: Canvas, force: PolygonForce, ends: tuple[Array, Array], name: str, language: Language
+) -> Iterator[tuple[str, float, float]]:
+    """Draw the parts of a force across and along its link, and yield their names and places."""
+    (start, end), size = ends, force.size
+    if force.across is None or not size:
+        return
+    # on paper the y axis points down
+    turned, share = complex(force.x, -force.y), complex(force.across[0], -force.across[1])
+    side = complex(*(end - start)) * (share / turned)
+    corner = complex(*start) + side
+    middle = np.array([corner.real, corner.imag])
+    if min(np.hypot(*(middle - start)), np.hypot(*(end - middle))) < _LEAST:
+        return
+    kinds: tuple[Kind, ...] = ("tangential", "normal")
+    for part, (tail, tip) in zip(kinds, ((start, middle), (middle, end)), strict=True):
+        paper.arrow(tail.tolist(), tip.tolist(), width=_LOAD, style=DASHED)
+        yield name.removesuffix("$") + vector_mark(part, language) + "$" * name.endswith("$"), *((tail + tip) / 2)
 
 
 def _ends(plan: ForcePolygon) -> Array:
@@ -229,12 +253,31 @@ def _size(force: PolygonForce) -> float:
     return float(values)
 
 
+def load_symbol(kind: str, link: int | str, before: int, language: Language) -> str:
+    """Return the symbol of a load, weight or inertia force on a link: `F_2`, `G_2`, `P_i,2`; primes tell several."""
+    bases = {"inertia": symbol("link_inertia_force", language), "weight": texts("marks", language)["weight"]}
+    letter, _, index = bases.get(kind, "F").partition("_")
+    return f"{letter}{'′' * before}_{index}{',' if index else ''}{link}"
+
+
+def arm_symbol(force: str) -> str:
+    """Return the symbol of the arm of a force, which has its index: `h_и,2`, `h_G2`, `h_RC`."""
+    letter, _, index = force.partition("_")
+    own = "" if "," in index or letter.startswith("F") else letter
+    return f"h{'′' * force.count('′')}_{own.rstrip('′')}{index}"
+
+
+def torque_symbol(kind: str, link: int | str, language: Language) -> str:
+    """Return the symbol of a torque on a link: `M_2` of a load, `M_и,2` of inertia."""
+    return f"{symbol('link_inertia_torque', language)},{link}" if kind == "inertia" else f"M_{link}"
+
+
 def force_symbol(force: PolygonForce, numbers: dict[str, int], language: Language) -> str:
     """Return the symbol of a force: that of its joint, of its guide, of the loads on its link, or of the driver."""
     if force.kind == "driver":
         return math_symbol(QUANTITIES["driver_force"].symbol(language))
-    if force.kind == "load":
-        return math_symbol(f"F_{numbers.get(force.name, plain(force.name))}")
+    if force.is_load:
+        return math_symbol(load_symbol(force.kind, numbers.get(force.name, plain(force.name)), force.before, language))
     if force.kind == "guide":
         return math_symbol(f"N_{numbers.get(force.name, plain(force.name))}")
     return math_symbol(QUANTITIES["joint_force"]._replace(key=f"joint_force.{force.name}").symbol(language))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -15,6 +14,7 @@ from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.display import displayed, key_unit, symbol
+from crankwork.report.forces import arm_symbol, load_symbol, torque_symbol
 from crankwork.report.look import Drawn, figure_title, math_symbol, position_text, scale_text
 from crankwork.report.plans import draw_vectors, node_name
 from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines, plain, text_width
@@ -25,7 +25,7 @@ from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 
 _TALL, _MARGIN, _ROW, _FOOT = 400.0, 30.0, 14.0, 14.0
 # length of the arrow of a force, which is not to scale
-_FORCE, _PRIME = 40.0, "′"
+_FORCE = 40.0
 # width of the lines of the plan, of those in a plan without forces
 # height of the plan at least
 _LOWEST = 60.0
@@ -84,15 +84,10 @@ def lever_figure(machine: Drawn) -> Drawing:
 
 def _named(lever: Lever, numbers: dict[str, int], language: Language) -> list[_Named]:
     """Return the forces with their symbols, that which balances last."""
-    seen: Counter[str] = Counter()
     named = []
     for acting in lever.forces:
-        base = "F_" if acting.kind == "load" else f"{symbol('link_inertia_force', language)},"
-        name = f"{base}{numbers.get(acting.link, acting.link)}"
-        letter, _, index = name.partition("_")
-        force, arm = (math_symbol(f"{sign}{_PRIME * seen[name]}_{index}") for sign in (letter, "h"))
-        named.append(_Named(acting, force, arm))
-        seen[name] += 1
+        name = load_symbol(acting.kind, numbers.get(acting.link, acting.link), acting.before, language)
+        named.append(_Named(acting, math_symbol(name), math_symbol(arm_symbol(name))))
     end = next((name for name, node in lever.plan.nodes.items() if np.allclose(node, lever.balancing.end)), "a")
     index = symbol("balancing_torque", language).partition("_")[2]
     arm = f"{_pole(lever)}{node_name(end)}"
@@ -173,8 +168,7 @@ def _rows(
 def _torque(torque: LeverTorque, numbers: dict[str, int], language: Language) -> tuple[str, str]:
     """Return the symbols of a torque on a link and of its turning."""
     link = numbers.get(torque.link, torque.link)
-    base = "M_" if torque.kind == "load" else f"{symbol('link_inertia_torque', language)},"
-    return math_symbol(f"{base}{link}"), math_symbol(f"{symbol('speed', language)}_{link}")
+    return math_symbol(torque_symbol(torque.kind, link, language)), math_symbol(f"{symbol('speed', language)}_{link}")
 
 
 def _value_with_unit(key: str, value: float, language: Language) -> str:

@@ -51,9 +51,9 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
     return translate(f"notices.{code}", language, **shown)
 
 
-def skipped_figure_notes(results: Results, language: Language) -> Iterator[str]:
-    """Yield sentences about figures that are left out."""
-    names = list(dict.fromkeys(label(kind, language) for kind in _zero(results)))
+def skipped_figure_notes(results: Results, language: Language, *, zeros: bool = True) -> Iterator[str]:
+    """Yield sentences about figures that are left out; `zeros`: also those of what is zero throughout."""
+    names = list(dict.fromkeys(label(kind, language) for kind in _zero(results))) if zeros else []
     if names:
         yield translate("report.not_drawn_zero", language, names=", ".join(names))
     if results.machine.linkage is not None and _has_no_groups(results):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from itertools import product
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed
 from crankwork.show.animation import Part, part
 from crankwork.show.chart_layout import round_scale
-from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, extent, moved, use_layout
+from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, extent, line, moved, use_layout
 
 # how much of gas is seen at its least and its greatest pressure
 _THIN, _THICK = 0.06, 0.75
@@ -103,6 +103,7 @@ def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = Non
     corners, parts = [sketch.low[None], sketch.high[None]], list(sketch.parts)
     taken = [] if frame is None else [extent(item) for body in parts for item in body.at(_of(body, frame))
                                       if isinstance(item, Text | Circle)]  # fmt: skip
+    taken += _rotation(sketch.items)
     for arrow in arrows:
         length = displayed("piston_force", 1.0) * arrow.force / scale
         if frame is not None and abs(length[frame]) < _SHORTEST:
@@ -124,6 +125,14 @@ def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = Non
             parts.append(part(f"force.{arrow.name}.text", [text], ends + away, tint=shown))
     places = np.vstack(corners)
     return sketch._replace(parts=parts, low=places.min(axis=0), high=places.max(axis=0), force_scale=scale)
+
+
+def _rotation(items: Sequence[Item]) -> Iterator[ChartBox]:
+    """Yield what the arrows of rotation cover: black heads, and before each its arc. [mm]"""
+    for arc, head in pairwise(items):
+        if isinstance(arc, Polyline) and isinstance(head, Polyline) and head.fill == 0.0:
+            pieces = [*map(line, arc.points, arc.points[1:]), head]
+            yield from (extent(piece).inset(-_FREE, -_FREE, -_FREE, -_FREE) for piece in pieces)
 
 
 def _of(part_: Part, frame: int) -> int:

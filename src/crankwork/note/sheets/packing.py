@@ -238,7 +238,7 @@ def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout)
     if not picture.has_title:
         return Fit(picture, place, drawing, ink)
     middle, top = ink.left + ink.width / 2, ink.top + 2.0
-    rows = [(row_text, TEXT) for row_text in flow_rows(scales(drawing), ";  ", width)]
+    rows = [(row_text, TEXT) for row_text in flow_rows(scales(drawing), ";  ", width / WIDER)]
     scale_rows = len(rows)
     title = capital(drawing.title)
     size = next((height for height in (TITLE, TEXT) if WIDER * text_width(title, height) <= width), TEXT)

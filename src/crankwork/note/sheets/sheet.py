@@ -41,7 +41,7 @@ _LAYOUTS: dict[Size, tuple[Layout, ...]] = {
 }
 _MOST: dict[Size, int] = {"A0": 12, "A1": 8, "A2": 4, "A3": 2}
 # how tall graphs are at least, against those of a text
-_LEAST: dict[Size, float] = {"A0": 0.6, "A1": 0.6, "A2": 0.4, "A3": 0.45}
+_LEAST: dict[Size, float] = {"A0": 0.6, "A1": 0.6, "A2": 0.4, "A3": 0.38}
 _BINDING, _EDGE = 20.0, 5.0
 # how often figures are placed anew whose names need more room than was thought
 _TRIES = 8
