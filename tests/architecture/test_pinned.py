@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "05e9a639999f",
-    "formulas": "76b82fb16791",
-    "quantities": "66873acc980a",
-    "defaults": "60a795d723c4",
+    "symbols": "5150a35f8730",
+    "formulas": "7d5fc4380bcd",
+    "quantities": "f4e8e640e4b7",
+    "defaults": "e4b3543d2308",
 }
 
 
