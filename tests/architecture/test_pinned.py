@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "4c75672ef8b7",
-    "formulas": "26759dae5f38",
-    "quantities": "b765b3eb7ab1",
-    "defaults": "12050eb11aa4",
+    "symbols": "b169b47b4d72",
+    "formulas": "f4f3fb096069",
+    "quantities": "79e173aceebb",
+    "defaults": "6fd2a73f23c2",
 }
 
 
