@@ -59,7 +59,7 @@ def _one_way(over: CycleInterpolant, key: str, is_suction: bool) -> TracedValue:
     """Return the flow of a chamber on one of its strokes, positive, zero on the other one."""
     column, (ends, negative) = over.columns[key].named(key), over.sign_intervals(key)
     laws = (column, given("", 0.0)) if is_suction else (given("", 0.0), -column)
-    places = [*(reached(column, end) for end in ends[:-1]), ends[-1]]
+    places: list[float | TracedValue] = [*(reached(column, end) for end in ends[:-1]), ends[-1]]
     return TracedValue(Piecewise(places, tuple(laws[is_less] for is_less in negative)))
 
 

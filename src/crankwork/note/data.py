@@ -17,7 +17,21 @@ from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import links_of
 from crankwork.note.document import Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Lines, Section, Text, When, driven, full, has, lacks, machine_has, school
+from crankwork.note.parts import (
+    Head,
+    Lines,
+    Section,
+    Text,
+    When,
+    drawn,
+    driven,
+    every,
+    full,
+    has,
+    lacks,
+    machine_has,
+    school,
+)
 from crankwork.note.symbols import subscript
 from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
@@ -423,6 +437,13 @@ def _ratios(table: TransferTable, words: Words) -> Iterator[Column]:
                 yield Column(words.titled(f"{key}.{body.name}", unit), [words.number(value) for value in values])
 
 
+def _stated(material: Material) -> Iterator[Block]:
+    """Yield the table of the numbers that are given of stages."""
+    known = {value.key: value.value for value in in_order(material.results.trace.values()) if _is_stated(value.node)}
+    rows = [value_row(key, value, material.words, digits=material.digits) for key, value in known.items() if key]
+    yield value_table("data", rows, material.words)
+
+
 def _shaft(material: Material) -> Iterator[Block]:
     """Yield the task and the given data."""
     words, machine = material.words, material.machine
@@ -492,6 +513,7 @@ SECTIONS = (
     ), has("piston_displacement")),
     Section("method", (Head("method"), _how), has("piston_displacement")),
     Section("task", (Head("task"), _shaft), machine_has("turning")),
+    Section("task", (Head("task"), Text("task_stages"), _stated, _method), every(machine_has("stages"), lacks(drawn))),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),
     Section("task", (Head("task"), _task, Text("linkage_computed"), _method, _SHEETS), machine_has("linkage")),

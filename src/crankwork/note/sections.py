@@ -177,6 +177,8 @@ def _titles(material: Material) -> tuple[str, str]:
         return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
     if material.machine.turning is not None:
         return words.title("turning"), "turning_subtitle"
+    if material.machine.linkage is None and material.machine.stages is not None:
+        return words.title("compressor"), "compressor_subtitle"
     return words.title("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
 
 

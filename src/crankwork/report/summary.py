@@ -200,6 +200,9 @@ def _headline(machine: Machine, summary: Mapping[str, float], language: Language
         lines.append(translate("check.table", language, bodies=bodies, positions=positions))
     if machine.turning is not None:
         lines.append(translate("check.turning", language, cycle=f"{machine.cycle:g}"))
+    if machine.stages is not None:
+        count = sum(key.startswith("stage_pressure_ratio.") for key in summary)
+        lines.append(translate("check.stages", language, count=count))
     if machine.linkage is not None:
         lines += _drawing_lines(machine, language)
     if machine.chambers:
