@@ -439,7 +439,8 @@ def _ratios(table: TransferTable, words: Words) -> Iterator[Column]:
 
 def _stated(material: Material) -> Iterator[Block]:
     """Yield the table of the numbers that are given of stages."""
-    known = {value.key: value.value for value in in_order(material.results.trace.values()) if _is_stated(value.node)}
+    traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node)]
+    known = {value.key: value.value for value in traced if not (isinstance(value.node, Input) and value.node.unit)}
     rows = [value_row(key, value, material.words, digits=material.digits) for key, value in known.items() if key]
     yield value_table("data", rows, material.words)
 

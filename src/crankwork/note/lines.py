@@ -36,8 +36,8 @@ DELIVERY = (
 )  # fmt: skip
 _STAGES = (
     "limit_ratio", "needed_stages", "stage_count", "stage_pressure_ratio", "compression_exponent", "discharge_pressure",
-    "suction_pressure", "discharge_temperature", "gas_mass_flow", "free_air_delivery", "clearance_volumetric_efficiency",
-    "clearance_ratio", "inlet_flow", "swept_flow", "swept_volume", "bore", "stroke", "free_volumetric_efficiency",
+    "suction_pressure", "discharge_temperature", "clearance_volumetric_efficiency", "clearance_ratio", "stage_flow",
+    "gas_mass_flow", "free_air_delivery", "swept_flow", "swept_volume", "bore", "stroke", "free_volumetric_efficiency",
     "returned_power", "stage_power", "isothermal_power", "isothermal_efficiency", "single_stage_power", "stage_saving",
     "mechanical_efficiency", "motor_power", "overall_isothermal_efficiency", "specific_work", "cylinder_heat",
     "cooler_heat", "specific_cooler_heat", "heat_removed", "water_flow", "water_rise", "stage_flow_error",
@@ -180,6 +180,8 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
         groups = _of_piston(results, _DEGREES if degrees is None else degrees, force_degrees)
     elif results.machine.turning is not None:
         groups = _of_shaft(results)
+    elif results.machine.linkage is None and results.machine.stages is not None:
+        groups = iter((Group("stages", _LineFilter(results, 0.0).lines(_STAGES)),))
     else:
         groups = _of_links(results, degrees)
     return tuple(group for group in groups if group.lines)
@@ -389,7 +391,7 @@ def _of_links(results: Results, degrees: float | None) -> Iterator[Group]:
     yield Group("charges", new.lines(_CHARGES))
     yield new.group("chambers", _CHAMBERS)
     yield Group("gas_work", new.lines(_GAS_WORK))
-    if results.machine.stages is not None:
+    if results.machine.stages is not None and results.machine.linkage is not None:
         yield Group("stages", new.lines(_STAGES))
     yield Group("delivery", new.lines(DELIVERY))
     yield new.group("rod_loads", _ROD_LOADS)
