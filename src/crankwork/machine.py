@@ -14,7 +14,7 @@ from crankwork.cylinders.planes import Rotor
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import as_slider_crank
-from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
+from crankwork.loads.chamber import Chamber, Charge, Vessel, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured_pressure import MeasuredPressure
 from crankwork.loads.stages import Stages
@@ -385,6 +385,10 @@ class Machine:
         The crankshaft of a linkage of crank, rods and pistons, if more of it is known than the linkage shows.
     stages : Stages or None
         The stages of a compressor, with a linkage whose chambers they are, or instead of a mechanism.
+    crossheads : mapping of str to float
+        Masses of crossheads, by the pieces of a linkage of whose masses they are a part. [kg]
+    vessels : mapping of str to Vessel
+        Vessels that even the flow of the chambers of a pump, by name.
     drive : Drive
         Motor, flywheel and efficiency on the crank.
     transient : Transient or None
@@ -447,6 +451,8 @@ class Machine:
     # What the description states and what it leaves to defaults; None without a description
     inputs: Callable[[], FileInputs] | None = field(default=None, compare=False, repr=False)
     stages: Stages | None = None
+    crossheads: Mapping[str, float] = field(default_factory=dict)
+    vessels: Mapping[str, Vessel] = field(default_factory=dict)
 
     @property
     def moves(self) -> bool:

@@ -203,6 +203,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path, stated, results)),
     (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing.peak", stated, results)),
     (r"motor_selection\.\w+", _needs_motor),
+    (r"stages\.(water_heat_capacity|sides)", lambda results, _, path: path in leaves(results)),
     (_ROUNDED, lambda results, stated, path: not _idle_convention(path, stated, results)),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
 )

@@ -142,7 +142,7 @@ class BearingCycle:
         for bearing in self._bearings:
             if bearing.reversing:
                 extremes = self._over.extremes(bearing.reversing)
-                values |= _reversal_values(bearing.reversing, self._over, extremes, bearing.owner)
+                values |= reversal_values(bearing.reversing, self._over, extremes, bearing.owner)
         return values | {table.key: table for table in map(self._wear, self._journals)}
 
     def summary(self) -> dict[str, TracedValue]:
@@ -213,7 +213,7 @@ def _load_values(
     return values
 
 
-def _reversal_values(
+def reversal_values(
     key: str, over: CycleInterpolant, extremes: Mapping[str, TracedValue], owner: str
 ) -> dict[str, TracedValue]:
     """Return duration and ratio of the reversal of a load along one direction.

@@ -69,6 +69,8 @@ def _check_expressible(machine: Machine, *, has_all: bool) -> None:
     unsupported: dict[str, object] = {
         "charges": machine.charges,
         "stages": machine.stages,
+        "sliders": machine.crossheads,
+        "vessels": machine.vessels,
         "links": machine.redundant,
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,
     }

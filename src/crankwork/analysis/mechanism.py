@@ -39,7 +39,11 @@ from crankwork.analysis.motion_range import (
 from crankwork.analysis.motor_choice import motor_of_crank
 from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.prepared import Notice, PreparedLinkage
+from crankwork.analysis.pump_flow import COLUMNS as FLOWS
+from crankwork.analysis.pump_flow import flow_columns, flow_values
 from crankwork.analysis.results import Results
+from crankwork.analysis.rod_load import COLUMNS as ROD_LOADS
+from crankwork.analysis.rod_load import rod_load_columns, rod_load_notices, rod_load_values
 from crankwork.analysis.speed import (
     SpeedResults,
     analyse_speed,
@@ -155,6 +159,7 @@ def analyse_linkage(
     ran = simulate_transient(solved, motion, result, summary, progress)
     summary, checks = summary | ran.summary, checks | ran.checks
     notices += ran.notices + tuple(_of_machine(machine)) + tuple(stage_notices(summary))
+    notices += tuple(rod_load_notices(summary, machine))
     checks |= stage_checks(summary)
     # change points have a notice of their own
     notices += () if machine.mechanism.passages else unusual
@@ -249,8 +254,8 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
     limits = limits_of_transmissions(result) if result is not None and machine.working_range is None else {}
     extremes, unusual = quality_of(over, limits)
     summary = _summary(moved.solved, over, extremes, is_whole=result is None)
-    if result is not None:
-        summary |= limits_of(result, trace)
+    summary |= rod_load_values(machine, over) if result is None else limits_of(result, trace)
+    summary |= flow_values(machine, over)
     return _Singles(over, summary, tuple(notices), unusual, program)
 
 
@@ -283,7 +288,8 @@ def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
     trace = with_equal_columns(linkage_trace(solved, running), machine.mechanism, motion.equal_parts)
     friction = add_friction(solved, running, trace)
     bearings = bearings_of(machine, running.motion, trace) if reached.travel is None else JointBearings()
-    trace |= {**friction.columns, **bearings.columns}
+    trace |= {**friction.columns, **bearings.columns, **rod_load_columns(solved, running, trace)}
+    trace |= flow_columns(solved, trace)
     return _Moved(machine, reached, motion, solved, trace, friction, table, bearings)
 
 
@@ -359,7 +365,7 @@ def _followed(
     """
     kinds = (
         "slider_displacement", "slider_velocity", "slider_acceleration", "link_angle", "joint_force", "tooth_force",
-        "axial_force", "gas_pressure", "gas_force", "rod_load", *_OF_DRIVER, "shaking_force",
+        "axial_force", "gas_pressure", "gas_force", *ROD_LOADS, *FLOWS, *_OF_DRIVER, "shaking_force",
         *(FOLLOWED_FRICTION if has_friction else ()),
     )  # fmt: skip
     turning = {f"{kind}.{name}" for kind in _TURNING for name in pivoted}
@@ -515,7 +521,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
                   "transmission_angle", "pressure_angle", "instant_centre_x", "instant_centre_y"),
         "balance": ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment"),
         "speed": ("crank_speed", "kinetic_energy_change"),
-        "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force", "rod_load"),
+        "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force", *ROD_LOADS, *FLOWS),
         "friction": FRICTION,
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
                          "axial_force", "normal_force",

@@ -39,7 +39,7 @@ _QUANTITIES = {
 # columns of the table of stages, in their order
 _COLUMNS = (
     "suction_pressure", "discharge_pressure", "stage_pressure_ratio", "suction_temperature", "discharge_temperature",
-    "inlet_flow", "clearance_volumetric_efficiency", "swept_volume", "bore", "stage_power", "cylinder_heat",
+    "stage_flow", "clearance_volumetric_efficiency", "swept_volume", "bore", "stage_power", "cylinder_heat",
     "cooler_heat",
 )  # fmt: skip
 # values that a chamber of a stage takes over, by the fields of its valves
@@ -115,7 +115,7 @@ class _Compressor:
     def __init__(self, machine: Machine, stages: Stages, drawn: Mapping[str, TracedValue] | None) -> None:
         self.machine, self.stages, self.drawn, self.pi = machine, stages, drawn, machine.method.pi
         self.values: dict[str, TracedValue] = {}
-        self.w = traced_inputs.speed(machine, machine.method)
+        self.w, self.turn = traced_inputs.speed(machine, machine.method), given("cycle_angle", 2 * self.pi)
         self.count, self._z = self._number()
 
     def _keep(self, key: str, value: TracedValue) -> TracedValue:
@@ -215,12 +215,12 @@ class _Compressor:
         low, cold = self.of("suction_pressure", 0), self.of("suction_temperature", 0)
         constant = self.of("specific_gas_constant", 0)
         free = self.of("free_air_pressure", 0), self.of("free_air_temperature", 0)
-        first = self._keep("inlet_flow.1", self._first_flow(low, cold, constant, free))
+        first = self._keep("stage_flow.1", self._first_flow(low, cold, constant, free))
         for index in range(1, self.count):
             later, warm = first * low / self.of("suction_pressure", index), self.of("suction_temperature", index)
             if not warm.is_absent and warm.value != cold.value:
                 later = later * (warm / cold)
-            later = self._keep(f"inlet_flow.{index + 1}", later)
+            later = self._keep(f"stage_flow.{index + 1}", later)
             if self.drawn is not None:
                 self._keep(f"stage_flow_error.{index + 1}", self._of_chambers(index) / later - 1)
         if not constant.is_absent and not cold.is_absent and "gas_mass_flow" not in self.values:
@@ -249,7 +249,7 @@ class _Compressor:
     def _of_chambers(self, index: int) -> TracedValue:
         """Return what the chambers of a stage draw in."""
         flows = [(self.drawn or {})[f"inlet_flow.{name}"] for name in self.stages.chambers[index]]
-        return total(f"inlet_flow.stage_{index + 1}", flows)
+        return total(f"stage_flow.drawn_{index + 1}", flows)
 
     def _by_clearance(self, index: int) -> TracedValue:
         """Return the volumetric efficiency by the clearance of a stage, absent without one."""
@@ -274,11 +274,11 @@ class _Compressor:
         bore, stroke = bore_and_stroke(self.pi, None, None if ratio.is_absent else ratio, bore, stroke)
         area = piston_area(self.pi, self._keep("bore.1", bore))
         volume = self._keep("swept_volume.1", area * self._keep("stroke", stroke))
-        return self._keep("swept_flow.1", volume * self._given("sides") * self.w / (2 * self.pi))
+        return self._keep("swept_flow.1", volume * self._given("sides") * self.w / self.turn)
 
     def _find_sizes(self) -> None:
         """Find volumetric efficiencies, what pistons sweep, and bores."""
-        first, stroke, ratio = self.of("inlet_flow", 0), self._stroke(), self._given("stroke_bore_ratio")
+        first, stroke, ratio = self.of("stage_flow", 0), self._stroke(), self._given("stroke_bore_ratio")
         if "bore" in self.stages.numbers and "swept_flow.1" not in self.values:
             # a size beside a delivery gives what the clearance must be
             share = self._keep("clearance_volumetric_efficiency.1", first / self._first_swept())
@@ -289,10 +289,10 @@ class _Compressor:
             owner = f".{index + 1}"
             if f"swept_flow{owner}" in self.values:
                 continue
-            flow, share = self.of("inlet_flow", index), self._by_clearance(index)
+            flow, share = self.of("stage_flow", index), self._by_clearance(index)
             swept = self._keep(f"swept_flow{owner}", flow if share.is_absent else flow / share)
             if self.stages.has_speed:
-                volume = swept * (2 * self.pi) / (self._given("sides") * self.w)
+                volume = swept * self.turn / (self._given("sides") * self.w)
                 volume = self._keep(f"swept_volume{owner}", volume)
                 if stroke is None and ratio.is_absent:
                     continue
@@ -316,7 +316,7 @@ class _Compressor:
         for index in range(self.count):
             owner, (high, low), clearance = f".{index + 1}", self._pressures(index), self.of("clearance_ratio", index)
             exponents = self.of("compression_exponent", index), self._expansion(index)
-            flow = self.of("inlet_flow", index)
+            flow = self.of("stage_flow", index)
             if clearance.is_absent or exponents[0].value == exponents[1].value:
                 power = self._power(index, flow, high, low)
             else:
@@ -328,7 +328,7 @@ class _Compressor:
             powers.append(self._keep(f"stage_power{owner}", power))
         power, first, (_, low) = (
             self._keep("stage_power", total("", powers)),
-            self.of("inlet_flow", 0),
+            self.of("stage_flow", 0),
             self._pressures(0),
         )
         high = self._pressures(self.count - 1)[0]
@@ -342,9 +342,10 @@ class _Compressor:
         shaft, losses = self._given("shaft_power"), traced_inputs.efficiency_of(self.machine.drive)
         if not shaft.is_absent:
             self._keep("mechanical_efficiency", power / self._keep("shaft_power", shaft))
-        else:
-            shaft = self._keep("motor_power", power if losses.is_absent else power / losses)
-        self._keep("overall_isothermal_efficiency", least / shaft)
+        elif not losses.is_absent:
+            shaft = self._keep("motor_power", power / losses)
+        if not shaft.is_absent:
+            self._keep("overall_isothermal_efficiency", least / shaft)
 
     def find_heats(self) -> None:
         """Find the work on a kilogram, and heats that coolers, walls and water take."""
@@ -382,7 +383,7 @@ def stage_checks(values: Mapping[str, TracedValue]) -> dict[str, float]:
     """Return how far powers of stages are from those by quadrature of volume over pressure; empty without stages."""
     errors = []
     for owner in _owners(values):
-        names = ("discharge_pressure", "suction_pressure", "inlet_flow", "compression_exponent", "stage_power")
+        names = ("discharge_pressure", "suction_pressure", "stage_flow", "compression_exponent", "stage_power")
         high, low, flow, n_1, stated = (values[f"{name}.{owner}"].value for name in names)
         n_2, clearance, swept = (
             values.get(f"{name}.{owner}", absent(name, neutral)).value

@@ -642,6 +642,7 @@ VALVES = TableSpec("valves", {
 })  # fmt: skip
 
 _LIQUID = {"density": ()}
+_HEIGHT = Quantity(("length",), -100.0, 1e4)
 _PIPE = TableSpec("pipe", {
     "length": KeySpec(Quantity(("length",), 1e-3, 1e5), required=True),
     "diameter": KeySpec(LENGTH, required=True),
@@ -650,6 +651,10 @@ _PIPE = TableSpec("pipe", {
 # those of a chamber may stand at the end of pipes
 PIPED_VALVES = VALVES._replace(keys={
     **VALVES.keys,
+    "suction": KeySpec(_OPENING, required=True, instead_of=("suction_height",)),
+    "discharge": KeySpec(_OPENING, required=True, instead_of=("discharge_height",)),
+    "suction_height": KeySpec(_HEIGHT, instead_of=("suction",), only={"density": ()}),
+    "discharge_height": KeySpec(_HEIGHT, instead_of=("discharge",), only={"density": ()}),
     "density": KeySpec(Quantity(("density",), 1.0, 1e5), instead_of=("compression_exponent", "discharge_temperature")),
     "suction_pipe": KeySpec(_PIPE, only=_LIQUID),
     "discharge_pipe": KeySpec(_PIPE, only=_LIQUID),

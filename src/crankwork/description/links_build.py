@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -32,6 +32,7 @@ from crankwork.description.stages_build import stage_valves
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.dynamics.tabulated_inertia import TabulatedBody
+from crankwork.loads.chamber import Chamber, Vessel
 from crankwork.loads.curves import LoadCurve as LoadTable
 from crankwork.loads.indicator import DiagramError
 from crankwork.loads.load import (
@@ -45,6 +46,7 @@ from crankwork.loads.load import (
     TorqueOnLink,
     Weight,
 )
+from crankwork.loads.valves import Pipe
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.driver import Law, LinkMotor, Segment
@@ -120,6 +122,8 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
         chambers=chambers,
         charges=charges,
         stages=stages,
+        crossheads=_crossheads(values, reader),
+        vessels=_vessels(values, chambers, reader),
         shaft=build_shaft(values, reader),
         drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + (crank.si("inertia") or 0.0)),
         transient=transient,
@@ -158,6 +162,37 @@ def _check_method(machine: Machine, reader: Reader) -> None:
         reader.add_error("method.kinematics", message)
     else:
         check_inertia_ratio(method, form.lengths, reader)
+
+
+def _crossheads(values: Values, reader: Reader) -> dict[str, float]:
+    """Return the masses of crossheads by piece [kg]; report those heavier than their piece, or without gas on it."""
+    tables = {name: table for name, table in values["sliders"].items() if table and "crosshead_mass" in table}
+    chambers = [table for table in values["chambers"].values() if table]
+    pressed = {face["slider"] for table in chambers for face in (*table["faces"], table) if face}
+    for name, table in tables.items():
+        key = f"sliders.{name}.crosshead_mass"
+        if table.si("crosshead_mass") > (table.si("mass") or 0.0):
+            reader.add_error(key, ErrorMessage("crosshead_heavy"))
+        if name not in pressed:
+            reader.add_error(key, ErrorMessage("crosshead_gas", name=name))
+    return {name: table.si("crosshead_mass") for name, table in tables.items()}
+
+
+def _vessels(values: Values, chambers: Mapping[str, Chamber], reader: Reader) -> dict[str, Vessel]:
+    """Return the vessels by name; report unknown chambers, and those that pump no liquid."""
+    vessels = dict[str, Vessel]()
+    for name, table in values["vessels"].items():
+        for number, chamber in enumerate(table["chambers"], start=1):
+            place = f"vessels.{name}.chambers[{number}]"
+            known = chambers.get(chamber)
+            if known is None:
+                message = ErrorMessage("absent_chamber", name=chamber, known=", ".join(chambers) or "–")
+                reader.add_error(place, message)
+            elif known.valves is None or known.valves.density is None:
+                reader.add_error(place, ErrorMessage("vessel_gas", name=chamber))
+        pipe = table.made(Pipe) if "length" in table else None
+        vessels[name] = Vessel(tuple(table["chambers"]), table["side"], pipe)
+    return vessels
 
 
 def _drive(values: Values, method: Method, reader: Reader) -> Drive:

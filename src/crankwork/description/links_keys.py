@@ -127,6 +127,7 @@ _SLIDER = TableSpec("slider", {
     "guide": KeySpec(NAME, required=True),
     "pin": KeySpec(NAME),
     "points": KeySpec(MapOf(_PLACE)),
+    "crosshead_mass": KeySpec(Quantity(("mass",), 0.0, 1e6), only={"pin": ()}),
     **_MASS,
 })  # fmt: skip
 
@@ -182,6 +183,13 @@ _CHARGE = TableSpec("charge", {
     "mass": KeySpec(Quantity(("mass",), 1e-12, 1e6), instead_of=("mean_pressure", "pressure")),
 })  # fmt: skip
 
+_VESSEL = TableSpec("vessel", {
+    "chambers": KeySpec(ListOf(NAME, fewest=1, most=50), required=True),
+    "side": KeySpec(Choice(("discharge", "suction")), default="discharge"),
+    "length": KeySpec(Quantity(("length",), 1e-3, 1e5), only={"diameter": ()}),
+    "diameter": KeySpec(LENGTH, only={"length": ()}),
+    "friction": KeySpec(Number(0.0, 1.0, above=True), required=True, only={"length": ()}, example="0.02"),
+})  # fmt: skip
 _MOST_STAGES = 12
 _POSITIVE = Quantity(("pressure",), 0.0, 1e10)
 _STAGE_EXPONENT = OneForAll(Number(1.0, 3.0), _MOST_STAGES)
@@ -282,6 +290,7 @@ LINKAGE_FILE = TableSpec("file", {
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
     "stages": KeySpec(_STAGES_OF_CHAMBERS),
+    "vessels": KeySpec(MapOf(_VESSEL, most=20)),
     "shaft": KeySpec(_SHAFT),
     "bearings": KeySpec(_BEARINGS),
     "balance": KeySpec(BALANCE),
@@ -294,7 +303,7 @@ LINKAGE_FILE = TableSpec("file", {
 STARTED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
-_OF_CRANKSHAFT = ("stages", "shaft", "bearings", "balance")
+_OF_CRANKSHAFT = ("stages", "vessels", "shaft", "bearings", "balance")
 DRIVEN_FILE = LINKAGE_FILE._replace(keys={
     **{name: key for name, key in LINKAGE_FILE.keys.items() if name not in _OF_CRANKSHAFT},
     "crank": KeySpec(_CRANK._replace(keys={

@@ -18,11 +18,12 @@ from crankwork.description.schema import Values, nearest_name, no_effect_message
 from crankwork.description.table_file import FileTable, read_list, read_table
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError
+from crankwork.formula.traced_value import TracedValue, given
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing, plausible_units
 from crankwork.loads.pressure_processing import QUESTIONS
-from crankwork.loads.valves import Pipe, Valves
+from crankwork.loads.valves import Pipe, Valves, discharge_of_height, suction_of_height
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Cylinder, Gas
 from crankwork.units import UNITS
@@ -399,11 +400,18 @@ def check_parts(values: Values, path: str, reader: Reader) -> None:
 
 def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
     """Return the valves of a cylinder or chamber, None without; report contradictions."""
-    if "valves" not in values or not {"suction", "discharge"} <= set(values["valves"]):
+    ends = ("suction", "discharge")
+    if "valves" not in values or not all({end, f"{end}_height"} & {*values["valves"]} for end in ends):
         return None
     stated, path = values["valves"], f"{path}.valves"
+    linked = {end: _of_height(values, path, end, reader) for end in ends if f"{end}_height" in stated}
     pipes = {name: _pipe(stated, name) for name in ("suction_pipe", "discharge_pipe")}
-    valves: Valves = stated.made(Valves, **pipes)
+    valves: Valves = stated.made(Valves, **pipes, **{end: pressure.value for end, pressure in linked.items()})
+    if linked:
+        gravity = given("gravity", reader.gravity, "method.gravity")
+        valves = replace(valves, linked={**linked, "gravity": gravity})
+    if valves.suction <= 0:
+        reader.add_error(f"{path}.suction_height", ErrorMessage("suction_high"))
     if not valves.discharge > valves.suction:
         reader.add_error(f"{path}.discharge", ErrorMessage("valves_turned"))
     elif valves.temperature and valves.discharge_temperature:
@@ -417,6 +425,19 @@ def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
             advice = "compression_exponent = 1.3"
             reader.add_error(f"{path}.{key}", ErrorMessage("only_beside", key="compression_exponent", advice=advice))
     return valves
+
+
+def _of_height(values: Values, path: str, end: str, reader: Reader) -> TracedValue:
+    """Return the pressure that a height of liquid leaves before a pump, or adds behind it."""
+    stated, ambient = values["valves"], values.but(pressures="absolute").si("ambient") or 0.0
+    around = given("ambient_pressure", ambient, f"{path.rpartition('.')[0]}.ambient")
+    density = given("liquid_density", stated.si("density") or 0.0, f"{path}.density")
+    height = given(f"{end}_height", stated.si(f"{end}_height"), f"{path}.{end}_height")
+    gravity = given("gravity", reader.gravity, "method.gravity")
+    pressure: TracedValue = (suction_of_height if end == "suction" else discharge_of_height)(
+        around, density, gravity, height
+    )
+    return pressure.named(f"{end}_pressure")
 
 
 def _pipe(stated: Values, name: str) -> Pipe | None:

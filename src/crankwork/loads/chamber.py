@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Literal, Protocol
 
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, given
@@ -14,7 +14,7 @@ from crankwork.loads import gas
 from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece, VolumeAt
 from crankwork.loads.measured_pressure import MeasuredPressure
 from crankwork.loads.traced_diagram import at_angle
-from crankwork.loads.valves import Valves
+from crankwork.loads.valves import Pipe, Valves
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.dyads import Branch
 
@@ -94,6 +94,15 @@ class Chamber:
     angle_shift: float = 0.0
     resample: float | None = None
     temperature: float | None = None  # Absolute temperature of a charge while it is here
+
+
+@dataclass(frozen=True)
+class Vessel:
+    """A vessel at the valves of several chambers of a pump, and the pipe behind it, whose flow it evens."""
+
+    chambers: tuple[str, ...]
+    side: Literal["suction", "discharge"]
+    pipe: Pipe | None = None
 
 
 @dataclass(frozen=True)

@@ -181,7 +181,7 @@ def _rod_loads(forces: Sequence[GasForce]) -> Iterator[TracedValue]:
 
 
 class _Piped(NamedTuple):
-    """The pressure in a chamber behind pipes, its minimum with its angle, and notices."""
+    """The pressure in a chamber behind pipes, its minimum with its angle and heads, and notices."""
 
     pressure: TracedValue
     least: tuple[TracedValue, ...]
@@ -202,7 +202,7 @@ def _behind_pipes(name: str, chamber: Chamber, space: _Space, before: TracedValu
     if boiling is not None and least.value < boiling:
         pressures = {"least": least.value / 1e6, "vapour": boiling / 1e6}
         notices.append(("separation", {"name": name, **pressures, "angle": math.degrees(angle.value)}))
-    return _Piped(pressure, (least, angle), notices)
+    return _Piped(pressure, (least, angle, *valves.heads(flow, space.period)), notices)
 
 
 def _rates(space: _Space) -> tuple[TracedValue, TracedValue]:

@@ -9,8 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import piston_area
 from crankwork.loads.indicator import (
     DeadCentres,
@@ -22,6 +24,7 @@ from crankwork.loads.indicator import (
     solve_diagram,
 )
 from crankwork.locale import ErrorMessage
+from crankwork.quantities.key import key_of
 
 _TURN = 360.0
 _TEXT = "eastop_mcconkey_1993, ch. 12"
@@ -97,6 +100,35 @@ def discharge_coefficient(Q_del: Value, Q_in: Value) -> Value:
 def pump_slip(C_dis: Value) -> Value:
     """Share of the flow that is lost."""
     return 1 - C_dis
+
+
+@formula("suction_pressure", "subramanya_2005, ch. 16")
+def suction_of_height(p_0: Value, rho_liq: Value, g: Value, h_suc: Value) -> Value:
+    """Pressure that is left where liquid is drawn up from a surface below the pump."""
+    return p_0 - rho_liq * g * h_suc
+
+
+@formula("discharge_pressure", "subramanya_2005, ch. 16")
+def discharge_of_height(p_0: Value, rho_liq: Value, g: Value, h_dis: Value) -> Value:
+    """Pressure behind a pump below the outlet of its pipe."""
+    return p_0 + rho_liq * g * h_dis
+
+
+@formula("pressure_head", "subramanya_2005, ch. 16")
+def pressure_head(p_top: Value, rho_liq: Value, g: Value) -> Value:
+    """Height of liquid that has a pressure."""
+    return p_top / (rho_liq * g)
+
+
+@formula("separation_speed", "subramanya_2005, ch. 16")
+def separation_speed(w: Value, p_marg: Value, p_acc: Value) -> Value:
+    """Speed at which the liquid in a pipe separates at the dead centre, where its friction is zero.
+
+    Notes
+    -----
+    The pressure that speeds up the liquid grows with the square of the speed.
+    """
+    return w * np.sqrt(p_marg / p_acc)
 
 
 @formula("acceleration_pressure", "subramanya_2005, ch. 16")
@@ -295,10 +327,19 @@ class StatedValves:
 
     def _pipe_pressure(self, is_suction: bool, flow: Flow) -> TracedValue:  # noqa: FBT001 - which of two strokes
         """Return the pressure loss in a pipe, zero without a pipe."""
-        name = "suction_pipe" if is_suction else "discharge_pipe"
+        parts = self._pipe_parts("suction_pipe" if is_suction else "discharge_pipe", flow)
+        if not parts:
+            return given("", 0.0)
+        pressure, lost = parts[0], parts[1] if len(parts) > 1 else None
+        if lost is None:
+            return pressure
+        return pressure + lost if is_suction else pressure - lost
+
+    def _pipe_parts(self, name: str, flow: Flow) -> tuple[TracedValue, ...]:
+        """Return the pressures that speed up the liquid in a pipe and that its friction takes."""
         pipe = getattr(self.valves, name)
         if pipe is None:
-            return given("", 0.0)
+            return ()
         own, path = f"{self.own}.{name.partition('_')[0]}", f"{self.path}.{name}"
         density = self._given("liquid_density", "density")
         length = given(f"pipe_length{own}", pipe.length, f"{path}.length")
@@ -309,11 +350,26 @@ class StatedValves:
         )
         pressure = pressure.named(f"acceleration_pressure{own}")
         if not pipe.friction:
-            return pressure
+            return (pressure,)
         factor = given(f"pipe_friction{own}", pipe.friction, f"{path}.friction")
         lost: TracedValue = friction_pressure(factor, length, diameter, density, flow.rate, flow.speed, area)
-        lost = lost.named(f"friction_pressure{own}")
-        return pressure + lost if is_suction else pressure - lost
+        return pressure, lost.named(f"friction_pressure{own}")
+
+    def heads(self, flow: Flow, period: float) -> Iterator[TracedValue]:
+        """Yield the largest heads in pipes and the speeds of separation, of a pump whose heights are stated."""
+        if "gravity" not in self.valves.linked:
+            return
+        density, gravity = self._given("liquid_density", "density"), self.valves.linked["gravity"]
+        boiling = self._given("vapour_pressure", "vapour_pressure")
+        for name, outside in zip(("suction_pipe", "discharge_pipe"), self.pressures, strict=True):
+            parts, own = self._pipe_parts(name, flow), f"{self.own}.{name.partition('_')[0]}"
+            over = CycleInterpolant({part.key: part for part in parts}, CrankGrid.from_degrees, period)
+            for kind, part in zip(("acceleration_head", "friction_head"), parts, strict=False):
+                largest = over.extremes(part.key)[key_of(part.key).derived("_max")]
+                yield pressure_head(largest, density, gravity).named(f"{kind}{own}")
+                if kind == "acceleration_head" and not boiling.is_absent and outside.value > boiling.value:
+                    margin = (outside - boiling).named(f"separation_margin{own}")
+                    yield separation_speed(flow.speed, margin, largest).named(f"separation_speed{own}")
 
     def delivery(
         self,
@@ -345,6 +401,8 @@ class StatedValves:
     def _passed(self, flow: TracedValue, power: TracedValue) -> Iterator[TracedValue]:
         own, exponents, (low, high) = self.own, self.exponents, self.pressures
         yield flow
+        if "gravity" in self.valves.linked:
+            yield from (low, high)
         if self.valves.delivered is not None:
             share = discharge_coefficient(self._given("delivered_flow", "delivered"), flow)
             share = share.named(f"discharge_coefficient{own}")

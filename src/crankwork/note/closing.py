@@ -46,13 +46,15 @@ _OF_LINKAGES = frozenset((
     "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",
     "plane_mass", "plane_angle", "tractive_effort_variation", "swaying_couple", "hammer_blow", "lifting_speed",
     "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
+    "stage_power", "stage_saving", "heat_removed", "overall_isothermal_efficiency", "crosshead_load_tension",
+    "crosshead_load_compression", "mean_flow", "flow_pulsation", "vessel_volume_change", "vessel_saving",
     "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
 ))  # fmt: skip
 # digits of differences, and what of a residual is rounding
 _DIGITS, _ROUNDING = 3, 1e-9
 # in their order; of what links, joints and cylinders have the largest is before
 _NUMBERS = (
-    "effective_power", "indicated_power", "motor_power", "shaft_power",
+    "effective_power", "indicated_power", "motor_power", "shaft_power", "stage_power", "stage_saving", "mean_flow",
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
     "slider_stroke", "joint_force_max", "slider_velocity_max", "slider_acceleration_max",

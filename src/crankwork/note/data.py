@@ -17,7 +17,21 @@ from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import links_of
 from crankwork.note.document import Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Lines, Section, Text, When, driven, full, has, lacks, machine_has, school
+from crankwork.note.parts import (
+    Head,
+    Lines,
+    Section,
+    Text,
+    When,
+    drawn,
+    driven,
+    every,
+    full,
+    has,
+    lacks,
+    machine_has,
+    school,
+)
 from crankwork.note.symbols import subscript
 from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
@@ -444,6 +458,14 @@ def _ratios(table: TransferTable, words: Words) -> Iterator[Column]:
                 yield Column(words.titled(f"{key}.{body.name}", unit), [words.number(value) for value in values])
 
 
+def _stated(material: Material) -> Iterator[Block]:
+    """Yield the table of the numbers that are given of stages."""
+    traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node)]
+    known = {value.key: value.value for value in traced if not (isinstance(value.node, Input) and value.node.unit)}
+    rows = [value_row(key, value, material.words, digits=material.digits) for key, value in known.items() if key]
+    yield value_table("data", rows, material.words)
+
+
 def _shaft(material: Material) -> Iterator[Block]:
     """Yield the task and the given data."""
     words, machine = material.words, material.machine
@@ -517,6 +539,7 @@ SECTIONS = (
         Head("task"),
         Text("rotor_task", {"count": lambda material: str(len(material.results.listings["planes"].names))}),
     ), machine_has("rotor")),
+    Section("task", (Head("task"), Text("task_stages"), _stated, _method), every(machine_has("stages"), lacks(drawn))),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),
     Section("task", (Head("task"), _task, _method, _SHEETS), machine_has("linkage")),

@@ -28,6 +28,7 @@ from crankwork.note.parts import (
     At,
     Head,
     Lines,
+    Listed,
     Places,
     Section,
     Shown,
@@ -98,6 +99,7 @@ _SHARES = (
 _MEASURED_STEP = 10.0
 _BURNT, _HEATS = ("combustion_celsius", "combustion_temperature"), "kolchin_demidov_2008, ch. 1"
 _DELIVERED, _VOLUME = "eastop_mcconkey_1993, ch. 12", "kolchin_demidov_2008, ch. 5"
+_API = "api_618, 6.6"
 _CHARGE = "urieli_berchowitz_1984"
 _SINGLE = (
     "swept_volume", "clearance_volume", "compression_ratio", "gas_pressure_max", "indicated_work",
@@ -451,5 +453,17 @@ SECTIONS = (
         Lines("charges"), At("chambers"), Lines("chambers"),
         Places("gas", ("cylinder_volume", "gas_pressure", "gas_force", "rod_load"), "gas"),
         Shown(("chambers", "indicator")), Text("gas_work"), Lines("gas_work"), _works, _OF_DELIVERY,
+        When(machine_has("crossheads"), (
+            Text("rod_loads", {"source": Citation(_API)}), At("rod_loads"), Lines("rod_loads"),
+            Places("rod_loads", ("piston_rod_load", "crosshead_load"), "rod_loads"), Shown(("rod_loads",)),
+        )),
+        When(machine_has("vessels"), (
+            Text("vessels"), At("vessels"), Lines("vessels"),
+            Places("flows", ("chamber_flow", "vessel_flow"), "flows"), Shown(("pump_flow",)),
+        )),
     ), machine_has("chambers")),
+    Section("stages", (
+        Head("stages"), Text("stages", {"source": Citation(_DELIVERED)}), Lines("stages"), Listed("stages", "stages"),
+        Shown(("stage_indicator",)),
+    ), machine_has("stages")),
 )  # fmt: skip

@@ -34,6 +34,20 @@ DELIVERY = (
     "pump_slip", "polytropic_exponent", "discharge_temperature", "gas_mass_flow", "free_air_delivery",
     "isothermal_power", "isothermal_efficiency",
 )  # fmt: skip
+_STAGES = (
+    "limit_ratio", "needed_stages", "stage_count", "stage_pressure_ratio", "compression_exponent", "discharge_pressure",
+    "suction_pressure", "discharge_temperature", "clearance_volumetric_efficiency", "clearance_ratio", "stage_flow",
+    "gas_mass_flow", "free_air_delivery", "swept_flow", "swept_volume", "bore", "stroke", "free_volumetric_efficiency",
+    "returned_power", "stage_power", "isothermal_power", "isothermal_efficiency", "single_stage_power", "stage_saving",
+    "mechanical_efficiency", "motor_power", "overall_isothermal_efficiency", "specific_work", "cylinder_heat",
+    "cooler_heat", "specific_cooler_heat", "heat_removed", "water_flow", "water_rise", "stage_flow_error",
+)  # fmt: skip
+_ROD_LOADS = (
+    "piston_rod_load", "crosshead_load", "rod_load_tension", "rod_load_compression", "mean_rod_load",
+    "piston_rod_load_tension", "piston_rod_load_compression", "crosshead_load_tension", "crosshead_load_compression",
+)  # fmt: skip
+_FLOWS = ("chamber_flow", "vessel_flow", "mean_flow", "flow_pulsation", "flow_ratio", "vessel_volume_change",
+          "even_pipe_power", "vessel_saving")  # fmt: skip
 WHEEL_SIZES = (
     "flywheel_mass", "rim_speed", "rim_stress", "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width",
 )  # fmt: skip
@@ -169,6 +183,8 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
         groups = _of_shaft(results)
     elif results.machine.rotor is not None:
         groups = _of_rotor(results)
+    elif results.machine.linkage is None and results.machine.stages is not None:
+        groups = iter((Group("stages", _LineFilter(results, 0.0).lines(_STAGES)),))
     else:
         groups = _of_links(results, degrees)
     return tuple(group for group in groups if group.lines)
@@ -378,7 +394,11 @@ def _of_links(results: Results, degrees: float | None) -> Iterator[Group]:
     yield Group("charges", new.lines(_CHARGES))
     yield new.group("chambers", _CHAMBERS)
     yield Group("gas_work", new.lines(_GAS_WORK))
+    if results.machine.stages is not None and results.machine.linkage is not None:
+        yield Group("stages", new.lines(_STAGES))
     yield Group("delivery", new.lines(DELIVERY))
+    yield new.group("rod_loads", _ROD_LOADS)
+    yield new.group("vessels", _FLOWS)
     yield Group("inertia_loads", new.of(_inertia(results)), new.degrees)
     yield new.group("joint_forces", _JOINTS)
     yield new.group("shaking", _SHAKING)

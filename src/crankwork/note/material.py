@@ -67,6 +67,9 @@ ESSENTIAL = frozenset((
     "static_torque", "dynamic_torque", "balancing_torque", "driving_torque", "shaking_force", "motor_power",
     "motor_ratio", "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle", "turning_moment",
     "stroke_work", "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
+    "needed_stages", "stage_pressure_ratio", "stage_flow", "stage_power", "stage_saving", "cylinder_heat",
+    "cooler_heat", "water_flow", "clearance_ratio", "swept_flow", "returned_power", "piston_rod_load",
+    "crosshead_load", "mean_rod_load", "vessel_flow", "flow_pulsation", "vessel_volume_change", "vessel_saving",
 ))  # fmt: skip
 # masses of a rod, which stand with those that they are parts of
 _OF_ROD = ("rod_small_end_mass", "rod_big_end_mass", "rod_centre_distance")
@@ -79,7 +82,8 @@ _MAIN_FIGURES = frozenset((
     "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
     "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan",
     "acceleration_plan", "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison",
-    "turning_moment", "driver", "chambers", "speed", "sliders", "balance_polygons", "unbalanced",
+    "turning_moment", "driver", "chambers", "speed", "sliders", "balance_polygons", "unbalanced", "stage_indicator",
+    "rod_loads", "pump_flow",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip

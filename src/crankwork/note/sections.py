@@ -179,6 +179,8 @@ def _titles(material: Material) -> tuple[str, str]:
         return words.title("turning"), "turning_subtitle"
     if material.machine.rotor is not None:
         return words.title("rotor"), "rotor_subtitle"
+    if material.machine.linkage is None and material.machine.stages is not None:
+        return words.title("compressor"), "compressor_subtitle"
     return words.title("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.analysis.stages import stage_diagrams
 from crankwork.analysis.vector_polygons import driver_rates, position_step
 from crankwork.errors import InputError, Problem
 from crankwork.locale import ErrorMessage, translate
@@ -40,7 +41,7 @@ from crankwork.report.flywheel import (
     wittenbauer,
 )
 from crankwork.report.forces import force_law, forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
-from crankwork.report.gas import chamber_indicator, indicator, pressure
+from crankwork.report.gas import chamber_indicator, indicator, pressure, pump_flow, rod_loads, stage_indicator
 from crankwork.report.harmonics import phase_stars, torque_harmonics
 from crankwork.report.lever import has_lever, lever_figure
 from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of, quantity_of
@@ -364,6 +365,26 @@ def _own(machine: Drawn, name: str, keys: Sequence[str]) -> Drawing:
     return curves(degrees, columns, parts, figure_title(name, machine.language), machine.style)
 
 
+def _drawn_of(draw: Callable[[Drawn, str], tuple[Canvas, Mapping[str, Graph]]], owner: str) -> Draw:
+    return lambda machine: draw(machine, owner)
+
+
+def _by_owner(
+    name: str, draw: Callable[[Drawn, str], tuple[Canvas, Mapping[str, Graph]]], part: str, key: str
+) -> Several:
+    """Return a figure of each sliding piece or vessel that a part of the machine names, which has a column."""
+
+    def figures_(machine: Drawn) -> Iterable[Diagram]:
+        owners = [
+            owner for owner in getattr(machine.results.machine, part) if f"{key}.{owner}" in machine.reached.columns
+        ]
+        for number, owner in enumerate(owners, start=1):
+            own = f"{name}_{number}" if number > 1 else name
+            yield Diagram(own, _drawn_of(draw, owner), _drawn, owner=plain(owner))
+
+    return Several(figures_, _drawn)
+
+
 _GAS = _of_kinds("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
 # every figure, in the order in which they are told
 DIAGRAMS: tuple[Entry, ...] = (
@@ -378,6 +399,9 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("centrodes", centrodes, every(_turning, has_centrodes)),
     Construction("indicator", chamber_indicator, lambda machine: _drawn(machine) and bool(_GAS(machine))),
     Curves("chambers", _GAS, when=_drawn),
+    Construction("stage_indicator", stage_indicator, lambda machine: bool(stage_diagrams(machine.results))),
+    _by_owner("rod_loads", rod_loads, "crossheads", "crosshead_load"),
+    _by_owner("pump_flow", pump_flow, "vessels", "vessel_flow"),
     Construction("process_force", force_law, lambda machine: bool(force_laws(machine.results))),
     Curves("reduced_inertia", _inertia, "quantities.reduced_inertia"),
     Curves("torques", _torques, "quantities.driving_torque", remark=_gives_work),

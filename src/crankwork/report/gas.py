@@ -11,14 +11,15 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.gas_chambers import indicators
+from crankwork.analysis.stages import stage_diagrams
 from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
 from crankwork.show.canvas import WIDER, Canvas, plain, text_width
-from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
+from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, true_slices
 from crankwork.show.chart_layout import current_layout, points_per_mm
 from crankwork.show.label_placement import label_marks
-from crankwork.show.scene import DASH_DOT, DASHED, STYLES, Drawing
+from crankwork.show.scene import DASH_DOT, DASHED, SOLID, STYLES, Drawing
 
 HEIGHT = 216.0
 _LONGEST = 16
@@ -239,22 +240,70 @@ def _dead_centres(engine: Drawn, graph: Graph) -> None:
 
 def chamber_indicator(machine: Drawn) -> Drawing:
     """Return pressure over volume of every chamber."""
-    results, style = machine.results, machine.style
-    diagrams = indicators(results)
-    volume, pressure = quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
-    drawn = {
-        name: (displayed_values(volume, diagram.volume), displayed_values(pressure, diagram.pressure))
-        for name, diagram in diagrams.items()
+    results = machine.results
+    # tables of a law over time go by time
+    factor = results.period / 360.0 if results.period else 1.0
+    curves = {plain(name): (*diagram[:2], diagram.degrees * factor) for name, diagram in indicators(results).items()}
+    return _indicators(machine, curves, "indicator")
+
+
+def stage_indicator(machine: Drawn) -> Drawing:
+    """Return pressure over volume of one side of the piston of every stage."""
+    curves = {
+        translate("drawing.stage", machine.language, number=number): (*diagram, None)
+        for number, diagram in stage_diagrams(machine.results).items()
     }
-    rows = [Row(plain(name), STYLES[k % 4]) for k, name in enumerate(drawn)] if len(drawn) > 1 else []
+    return _indicators(machine, curves, "stage_indicator")
+
+
+def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array | None]], title: str) -> Drawing:
+    """Return closed curves of pressure over volume by name, with the angles of their points. [SI]"""
+    style, volume, pressure = machine.style, quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
+    drawn = {
+        name: (displayed_values(volume, across), displayed_values(pressure, up), angles)
+        for name, (across, up, angles) in curves.items()
+    }
+    rows = [Row(name, STYLES[k % 4]) for k, name in enumerate(drawn)] if len(drawn) > 1 else []
     paper, box = sheet(259.0, rows)
-    x, y = (limits(*values, margin=0.05) for values in zip(*drawn.values(), strict=True))
+    x, y = (limits(*values, margin=0.05) for values in list(zip(*drawn.values(), strict=True))[:2])
     graph = Graph(paper, box, x, y, style.language)
     graph.frame(round_ticks(*x), round_ticks(*y, 10))
-    for k, (name, (across, up)) in enumerate(drawn.items()):
-        # tables of a law over time go by time
-        angles = diagrams[name].degrees * (results.period / 360.0 if results.period else 1.0)
+    for k, (name, (across, up, angles)) in enumerate(drawn.items()):
         graph.curve(name, across, up, STYLES[k % 4], angles=angles)
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
-    return paper.drawing(translate("figures.indicator", style.language), style.language)
+    return paper.drawing(translate(f"figures.{title}", style.language), style.language)
+
+
+def rod_loads(machine: Drawn, slider: str) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the loads of a piston rod and of its crosshead pin over the cycle, the reversed load of the pin shaded."""
+    degrees, keys = machine.reached.degrees, ("crosshead_load", "piston_rod_load", "rod_load")
+    values = [machine.shown(key, machine.reached.columns[f"{key}.{slider}"]) for key in keys]
+    duration = machine.value("reversal_duration", machine.results.summary[f"reversal_duration.{slider}"])
+    rows = [Row(machine.named(key), style) for key, style in zip(keys, STYLES, strict=False)]
+    rows.append(Row(translate("drawing.reversed", machine.language, duration=duration), SOLID, 0.0))
+    paper, box = sheet(HEIGHT, rows)
+    graph = over_cycle(paper, box, limits(*values), machine.cycle, machine.language)
+    is_shorter = values[0] < 0
+    if np.trapezoid(is_shorter, degrees) > machine.cycle / 2:
+        is_shorter = values[0] > 0
+    for part in true_slices(is_shorter):
+        inside = degrees[part]
+        graph.shade(np.append(inside, inside[::-1]), np.append(values[0][part], np.zeros(inside.size)))
+    for key, load, style in zip(keys, values, STYLES, strict=False):
+        graph.curve(f"{key}.{slider}", degrees, load, style)
+    machine.name_axes(graph, "crank_angle", "crosshead_load")
+    return paper, {"rod_loads": graph}
+
+
+def pump_flow(machine: Drawn, vessel: str) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the flow at a vessel over the cycle with its mean."""
+    degrees, key = machine.reached.degrees, f"vessel_flow.{vessel}"
+    mean, values = machine.results.summary[f"mean_flow.{vessel}"], machine.shown(key, machine.reached.columns[key])
+    rows = [Row(machine.named("vessel_flow"), SOLID), Row(machine.stated("mean_flow", mean), DASH_DOT, 0.45)]
+    paper, box = sheet(HEIGHT, rows)
+    graph = over_cycle(paper, box, limits(values, np.zeros(1)), machine.cycle, machine.language)
+    graph.curve(key, degrees, values)
+    graph.level(float(machine.shown("mean_flow", mean)), DASH_DOT, "mean")
+    machine.name_axes(graph, "crank_angle", "vessel_flow")
+    return paper, {"pump_flow": graph}

@@ -203,6 +203,9 @@ def _headline(machine: Machine, summary: Mapping[str, float], language: Language
     if machine.rotor is not None:
         planes = translate(f"check.{'one_plane' if machine.rotor.is_flat else 'several_planes'}", language)
         lines.append(translate("check.rotor", language, count=len(machine.rotor.masses), planes=planes))
+    if machine.stages is not None:
+        count = sum(key.startswith("stage_pressure_ratio.") for key in summary)
+        lines.append(translate("check.stages", language, count=count))
     if machine.linkage is not None:
         lines += _drawing_lines(machine, language)
     if machine.chambers:
