@@ -395,6 +395,8 @@ class Machine:
         The engine of which this crank mechanism is a cylinder.
     notices : tuple of (str, mapping)
         Notices about the description of a linkage: code and values.
+    test : mapping of str to tuple of float or None
+        What a test bed measured, by key of its table; several numbers where one cylinder is cut out. [SI]
     """
 
     mechanism: Mechanism
@@ -436,6 +438,7 @@ class Machine:
     stated: Mapping[str, InputNumber] = field(default_factory=dict, compare=False, repr=False)
     # What the description states and what it leaves to defaults; None without a description
     inputs: Callable[[], FileInputs] | None = field(default=None, compare=False, repr=False)
+    test: Mapping[str, tuple[float, ...]] | None = None
 
     @property
     def lengths(self) -> SliderCrank | None:

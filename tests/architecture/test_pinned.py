@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "61a27651a813",
-    "formulas": "28ef1f499166",
-    "quantities": "9425f2047fec",
-    "defaults": "83e3788c9eca",
+    "symbols": "d7fef5e62daf",
+    "formulas": "a8708cfb72b6",
+    "quantities": "3828c110de67",
+    "defaults": "e4df0c3968a6",
 }
 
 

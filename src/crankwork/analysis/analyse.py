@@ -162,8 +162,19 @@ def _analysed(
         from crankwork.analysis.mechanism import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_linkage(machine, grid, progress)
-    results = analyse_engine(machine, grid, method=method)
-    if machine.gas is None or machine.gas.combustion is None:
+    if machine.test is not None:
+        from crankwork.analysis.test_bed import analyse_test, with_test  # noqa: PLC0415 - loaded where it is needed
+
+        if machine.lengths is None:
+            return analyse_test(machine)
+        return with_test(_with_burning(analyse_engine(machine, grid, method=method)))
+    return _with_burning(analyse_engine(machine, grid, method=method))
+
+
+def _with_burning(results: Results) -> Results:
+    """Return the results of an engine with the analysis of combustion that its gas asks for."""
+    gas = results.machine.gas
+    if gas is None or gas.combustion is None:
         return results
     from crankwork.analysis.combustion import with_combustion  # noqa: PLC0415 - loaded where it is needed
 
@@ -176,7 +187,7 @@ def columns_only(machine: Machine) -> Results:
     Faster than `analyse`.
     """
     is_burning = machine.gas is not None and machine.gas.combustion is not None
-    if machine.transfer is not None or machine.turning is not None or is_burning:
+    if machine.transfer is not None or machine.turning is not None or is_burning or machine.test is not None:
         return analyse(machine)
     engine = None if machine.method.is_exact else _engine_of(machine, machine.method)
     if engine is not None:
