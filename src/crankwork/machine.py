@@ -446,6 +446,11 @@ class Machine:
         return as_slider_crank(self.mechanism) if self.linkage is None and self.transfer is None else None
 
     @property
+    def moves(self) -> bool:
+        """Whether there is a mechanism to be drawn."""
+        return self.transfer is None and self.turning is None and (self.test is None or self.lengths is not None)
+
+    @property
     def inclination(self) -> float:
         """Angle from the upward vertical to the head of cylinder 1, stated or that of an upright layout. [rad]"""
         if self.cylinder is not None and self.cylinder.inclination is not None:

@@ -40,7 +40,16 @@ def analyse_test(machine: Machine) -> Results:
     worked = _worked(machine, sizes)
     grid = CrankGrid.from_degrees(np.array([0.0]))
     summary = {key: value.value for key, value in worked.items()}
-    return Results(PreparedMachine(machine, machine.method, machine.speed), grid, {}, summary, {}, (), {}, trace=worked)
+    return Results(
+        PreparedMachine(machine, machine.method, machine.speed),
+        grid,
+        {},
+        summary,
+        {},
+        (),
+        {"test": tuple(worked)},
+        trace=worked,
+    )
 
 
 def with_test(results: Results) -> Results:
@@ -62,7 +71,9 @@ def with_test(results: Results) -> Results:
     worked = _worked(results.machine, own)
     values = {key: value for key, value in worked.items() if key not in results.summary}
     summary = {**results.summary, **{key: value.value for key, value in values.items()}}
-    return replace(results, summary=summary, trace={**trace, **values})
+    return replace(
+        results, summary=summary, trace={**trace, **values}, groups={**results.groups, "test": tuple(values)}
+    )
 
 
 def _worked(machine: Machine, sizes: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
@@ -74,7 +85,9 @@ def _worked(machine: Machine, sizes: Mapping[str, TracedValue]) -> dict[str, Tra
         if key != "one_cut":
             worked.given(quantity, numbers[0], f"cylinder.{key}" if key == "displacement" else f"test.{key}")
     # one cylinder of four strokes, and dry air
-    for key, usual in (("cylinder_count", 1.0), ("strokes_per_cycle", 4.0), ("specific_gas_constant", 287.0)):
+    usual_values = {"cylinder_count": 1.0, "strokes_per_cycle": 4.0}
+    usual_values |= {"specific_gas_constant": 287.0} if "charge_pressure" in worked.known else {}
+    for key, usual in usual_values.items():
         if key not in worked.known:
             worked.given(key, usual)
     cylinder = machine.cylinder
@@ -109,4 +122,6 @@ def _cut_powers(worked: Calculation, cut: tuple[float, ...], pi: float) -> dict[
         if kind != "effective_power":
             work_test(cut_out, pi)
         powers.append(cut_out["effective_power"].named(f"effective_power.{number}"))
+    for power in powers:
+        worked.keep(power)
     return {"power_with_one_cut": total("power_with_one_cut", powers)}

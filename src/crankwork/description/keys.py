@@ -135,10 +135,10 @@ _TRANSIENT = TableSpec("transient", {
 })  # fmt: skip
 # sections of notes in the order that most schools have
 _ENGINE_SECTIONS = (
-    "summary", "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity",
-    "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled",
-    "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature",
-    "sources", "appendix",
+    "summary", "preface", "data", "method", "cycle", "indicator", "burning", "test", "kinematics", "displacement",
+    "velocity", "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar",
+    "unrolled", "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion",
+    "nomenclature", "sources", "appendix",
 )  # fmt: skip
 _LINKAGE_SECTIONS = (
     "summary", "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques",

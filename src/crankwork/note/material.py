@@ -64,6 +64,8 @@ ESSENTIAL = frozenset((
     "motor_ratio", "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle", "turning_moment",
     "stroke_work", "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
+# groups that every note shows all of
+_WHOLE = ("test", "burning")
 # masses of a rod, which stand with those that they are parts of
 _OF_ROD = ("rod_small_end_mass", "rod_big_end_mass", "rod_centre_distance")
 # height of the figures of a linkage over that elsewhere
@@ -272,7 +274,7 @@ class Material:
         selected = self.lines(group, *kinds)
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
-        if not self.full:
+        if not self.full and group not in _WHOLE:
             selected = list(in_one_formula(selected)) if self.has_piston else selected
             # places of points stand with the motion, masses of the rod with the others
             places = () if group in ("motion", "driver") else ("point_x", "point_y")
@@ -281,6 +283,8 @@ class Material:
             # the derivative of a sum is that of its terms
             selected = [row for row in selected if not row.key.startswith("reduced_inertia_1.")]
         # of families, such as the journals of a shaft, a table has the others
+        if group in _WHOLE:
+            return self.worked(selected)
         if first or not self.full:
             return self.worked(_first(selected))
         return self.worked(_first(selected, by_part=True) if self.has_piston else selected)

@@ -63,26 +63,28 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 # sections in the order of a school; those that results have nothing for are left out
 _LINKAGE = (
-    "summary", "task", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics", "quality",
-    "chambers", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor", "flywheel",
-    "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+    "summary", "task", "test", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics",
+    "quality", "chambers", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor",
+    "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources",
+    "appendix",
 )  # fmt: skip
 # sections of a linkage that the main course leaves out
 _FULL = ("bearings",)
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
-        "summary", "data", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin",
-        "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "summary", "data", "nomenclature", "cycle", "indicator", "burning", "test", "kinematics", "dynamics", "torque",
+        "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
+        "appendix",
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
-        "summary", "data", "nomenclature", "cycle", "indicator", "displacement", "velocity", "acceleration",
-        "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness",
-        "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "summary", "data", "nomenclature", "cycle", "indicator", "burning", "test", "displacement", "velocity",
+        "acceleration", "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear",
+        "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     "en": (
-        "summary", "data", "method", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque",
-        "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
+        "summary", "data", "method", "nomenclature", "cycle", "indicator", "burning", "test", "kinematics", "dynamics",
+        "torque", "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
         "appendix",
     ),
 }  # fmt: skip
@@ -174,6 +176,8 @@ def _titles(material: Material) -> tuple[str, str]:
         space = material.results.solved.space
         is_engine = space is not None and space.work > 0 and "bore" in material.summary
         return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
+    if material.machine.test is not None:
+        return words.title("test"), "test_subtitle"
     if material.machine.turning is not None:
         return words.title("turning"), "turning_subtitle"
     return words.title("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"

@@ -92,7 +92,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
 
 def film_of(results: Results, *, language: Language = "en", frames: int = 0, forces: bool = False) -> Animation | None:
     """Return the machine of results as it moves, if it has a mechanism, and one that is driven by what it can turn."""
-    if results.machine.transfer is not None or results.machine.turning is not None:
+    if not results.machine.moves:
         return None
     try:
         return moving_drawing(results, language=language, frames=frames, forces=forces)
@@ -118,7 +118,7 @@ def drawn(  # noqa: PLR0913 - what is drawn, and how
     `told`: is told which part of a film is done.
     """
     machine = results.machine
-    if machine.transfer is not None or machine.turning is not None:
+    if not machine.moves:
         raise CrankworkError(ErrorMessage("nothing_moves"))
     if results.period and angle_or_time is not None and not 0 <= angle_or_time <= results.period:
         raise CrankworkError(ErrorMessage("time_outside", time=angle_or_time, period=results.period))
