@@ -403,6 +403,8 @@ class Machine:
         The engine of which this crank mechanism is a cylinder.
     notices : tuple of (str, mapping)
         Notices about the description of a linkage: code and values.
+    test : mapping of str to tuple of float or None
+        What a test bed measured, by key of its table; several numbers where one cylinder is cut out. [SI]
     """
 
     mechanism: Mechanism
@@ -453,17 +455,17 @@ class Machine:
     stages: Stages | None = None
     crossheads: Mapping[str, float] = field(default_factory=dict)
     vessels: Mapping[str, Vessel] = field(default_factory=dict)
-
-    @property
-    def moves(self) -> bool:
-        """Whether it has a mechanism, instead of transfer functions or what is on a shaft."""
-        is_given = self.transfer is not None or self.turning is not None or self.rotor is not None
-        return not is_given and (self.stages is None or self.linkage is not None)
+    test: Mapping[str, tuple[float, ...]] | None = None
 
     @property
     def lengths(self) -> SliderCrank | None:
         """The lengths of crank and rod, unless a linkage or a table gives the motion. [m]"""
         return as_slider_crank(self.mechanism) if self.linkage is None and self.transfer is None else None
+
+    @property
+    def moves(self) -> bool:
+        """Whether there is a mechanism to be drawn."""
+        return self.linkage is not None or self.lengths is not None
 
     @property
     def inclination(self) -> float:

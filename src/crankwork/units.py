@@ -120,6 +120,11 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "energy_by_angle": [(180 / math.pi, "J/deg Дж/град J/°"), (1.0, "J/rad Дж/рад"),
                         (_LBF * _FT * 180 / math.pi, "ft*lbf/deg")],
     "pressure_by_velocity": [(1e6, "MPa*s/m МПа*с/м"), (1.0, "Pa*s/m Па*с/м")],
+    "pressure_by_square_velocity": [(1.0, "Pa*s2/m2 Па*с2/м2"), (1e3, "kPa*s2/m2 кПа*с2/м2")],
+    "pressure_by_length": [
+        (1e9, "MPa/mm МПа/мм"), (1e8, "bar/mm бар/мм"), (1e6, "MPa/m kPa/mm МПа/м кПа/мм"), (1.0, "Pa/m Па/м"),
+        (_LBF / _IN**3, "psi/in"),
+    ],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
     "specific_heat": [(1.0, "J/(kg*K) Дж/(кг*К)"), (1e3, "kJ/(kg*K) кДж/(кг*К)")],
     "density": [(1.0, "kg/m3 кг/м3"), (1e3, "g/cm3 г/см3"), (_LB / _FT**3, "lb/ft3"), (_LB / _IN**3, "lb/in3")],
@@ -208,7 +213,7 @@ _IMPERIAL = {
     "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
     "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
-    "m3/min": "ft3/min", "MPa/deg": "psi/deg", "J/deg": "ft*lbf/deg", "degC": "degF",
+    "m3/min": "ft3/min", "MPa/deg": "psi/deg", "MPa/mm": "psi/in", "J/deg": "ft*lbf/deg", "degC": "degF",
 }  # fmt: skip
 
 

@@ -20,7 +20,7 @@ from crankwork.analysis.cylinder_balance import (
 from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
 from crankwork.analysis.firing import delivery_trace, firing_listing, firing_trace, work_trace
 from crankwork.analysis.harmonics import harmonics_listing
-from crankwork.analysis.one_cylinder import analyse_engine, moved_work
+from crankwork.analysis.one_cylinder import analyse_engine, moved_work, with_measured
 from crankwork.analysis.prepared import Notice, PreparedCylinder
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Listing, Results
@@ -271,4 +271,5 @@ def with_engine_results(results: Results) -> Results:
     if layout.cycle != machine.cycle:
         return results
     machine = replace(machine, engine=Engine(layout, notices=notices))
-    return replace(analyse_engine(machine, results.grid, method=results.method), compared=results.compared)
+    own = with_measured(analyse_engine(machine, results.grid, method=results.method))
+    return replace(own, compared=results.compared)

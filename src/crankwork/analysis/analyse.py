@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.one_cylinder import analyse_engine, own_key
+from crankwork.analysis.one_cylinder import analyse_engine, own_key, with_measured
 from crankwork.analysis.plausibility import implausible
 from crankwork.analysis.prepared import Notice, prepare
 from crankwork.analysis.results import Results
@@ -170,12 +170,11 @@ def _analysed(
         from crankwork.analysis.mechanism import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_linkage(machine, grid, progress)
-    results = analyse_engine(machine, grid, method=method)
-    if machine.gas is None or machine.gas.combustion is None:
-        return results
-    from crankwork.analysis.combustion import with_combustion  # noqa: PLC0415 - loaded where it is needed
+    if machine.test is not None and machine.lengths is None:
+        from crankwork.analysis.test_bed import analyse_test  # noqa: PLC0415 - loaded where it is needed
 
-    return with_combustion(results)
+        return analyse_test(machine)
+    return with_measured(analyse_engine(machine, grid, method=method))
 
 
 def columns_only(machine: Machine) -> Results:

@@ -48,7 +48,7 @@ _PATH = "gas.combustion"
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 _FEWEST = 5
 # over which the heat is averaged where burning begins and ends [deg]
-_AVERAGED = 10.0
+_AVERAGED = 4.0
 _VARIATIONS = {
     "indicated_mean_pressure": "mean_pressure_variation",
     "cylinder_pressure_max": "peak_pressure_variation",

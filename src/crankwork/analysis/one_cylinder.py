@@ -95,6 +95,20 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     return with_whole_engine(results, engine_trace)
 
 
+def with_measured(results: Results) -> Results:
+    """Return the results of an engine with what follows from its measured pressure and its test."""
+    gas = results.machine.gas
+    if gas is not None and gas.combustion is not None:
+        from crankwork.analysis.combustion import with_combustion  # noqa: PLC0415 - loaded where it is needed
+
+        results = with_combustion(results)
+    if results.machine.test is not None:
+        from crankwork.analysis.test_bed import with_test  # noqa: PLC0415 - loaded where it is needed
+
+        results = with_test(results)
+    return results
+
+
 def own_key(machine: Machine, key: str) -> str:
     """Return the key of a value of cylinder 1; different from that of the whole engine if both have the value."""
     return MOVED.get(key, key) if machine.engine is not None else key

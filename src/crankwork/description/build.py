@@ -19,12 +19,12 @@ from crankwork.dynamics.masses import (
     rod_small_end_mass,
     suspension_distance,
 )
-from crankwork.errors import MethodError
+from crankwork.errors import CrankworkError, MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import piston_area
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Cylinder, Drive, Engine, Gas, Machine
-from crankwork.mechanism.mechanism import slider_crank
+from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
 from crankwork.method import EXACT, Method
 from crankwork.units import UNITS
 from crankwork.working_cycle.engine_size import bore_and_stroke
@@ -95,7 +95,50 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
         drive=drive,
         stated=stated,
         rod_equivalent=rod["equivalent"] or "",
+        test=test_values(values) if "test" in values else None,
     )
+
+
+def test_values(values: Values) -> dict[str, tuple[float, ...]]:
+    """Return what a test bed measured by key, defaults included. [SI]"""
+    table, stated = values["test"], {}
+    for key in table.table.keys:
+        value = table[key]
+        if value is not None:
+            numbers = value if isinstance(value, list) else [value]
+            stated[key] = tuple(
+                number.value if isinstance(number, MeasuredValue) else float(number)
+                for number in numbers
+                if number is not None
+            )
+    return stated
+
+
+def build_test(values: Values, reader: Reader) -> Machine | None:
+    """Return the machine of a test alone, or None after complaints."""
+    from crankwork.analysis.test_bed import analyse_test  # noqa: PLC0415 - few files have a test alone
+
+    method, crank = build_method(values["method"], reader), values["crank"]
+    if reader.problems:
+        return None
+    speed = crank_speed(crank["speed"], method) if crank["speed"] else math.pi / 30
+    cylinder = values["cylinder"].made(
+        Cylinder, piston_rod_diameter=values["cylinder"].si("piston_rod_diameter") or 0.0
+    )
+    radius = crank.si("radius") or (crank.si("stroke") or 0.0) / 2
+    test = test_values(values)
+    if (volume := values["cylinder"].si("displacement")) is not None:
+        test["displacement"] = (volume,)
+    machine = Machine(
+        Mechanism(Crank(radius=radius), ()), speed, title=values["title"] or "", cylinder=cylinder, method=method,
+        stated=stated_numbers(values), test=test,
+    )  # fmt: skip
+    try:
+        analyse_test(machine)
+    except CrankworkError as error:
+        reader.add_error("test", error.args[0])
+        return None
+    return machine
 
 
 def _with_sizes(values: Values, pi: float, reader: Reader) -> Values:

@@ -135,10 +135,10 @@ _TRANSIENT = TableSpec("transient", {
 })  # fmt: skip
 # sections of notes in the order that most schools have
 _ENGINE_SECTIONS = (
-    "summary", "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity",
-    "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled",
-    "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature",
-    "sources", "appendix",
+    "summary", "preface", "data", "method", "cycle", "indicator", "burning", "test", "kinematics", "displacement",
+    "velocity", "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar",
+    "unrolled", "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion",
+    "nomenclature", "sources", "appendix",
 )  # fmt: skip
 _LINKAGE_SECTIONS = (
     "summary", "task", "structure", "kinematics", "quality", "chambers", "stages", "forces", "balance", "reduction",
@@ -156,6 +156,7 @@ _STAGES_SECTIONS = ("summary", "task", "stages", "comparison", "checks", "conclu
 _ROTOR_SECTIONS = (
     "summary", "task", "planes", "comparison", "checks", "conclusion", "nomenclature", "sources",
 )  # fmt: skip
+_TEST_SECTIONS = ("summary", "task", "test", "checks", "conclusion", "nomenclature", "sources")
 _WORDS = Text(300)
 _HEAD = (
     "title_en", "title_ru", "title_vi",
@@ -291,6 +292,7 @@ def document_key(sections: tuple[str, ...]) -> KeySpec:
 
 
 ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key(_LINKAGE_SECTIONS)
+TEST_DOCUMENT = document_key(_TEST_SECTIONS)
 TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
 STAGES_DOCUMENT = document_key(_STAGES_SECTIONS)
 ROTOR_DOCUMENT = document_key(_ROTOR_SECTIONS)
@@ -694,6 +696,44 @@ _GAS = TableSpec("gas", {
     "motored": KeySpec(NameOr(TableSpec("gas", DIAGRAM))),
 })  # fmt: skip
 
+_WARMER = Quantity(("temperature",), 0.0, 2000.0, above=True)
+# what a test bed measured, by the quantities that it states
+_TESTED: dict[Any, tuple[str, ...]] = {
+    Quantity(("force",), 0.0, 1e9): ("brake_load", "brake_spring_load"),
+    LENGTH: (
+        "brake_arm", "brake_drum_diameter", "brake_rope_diameter", "brake_circumference", "card_length",
+        "orifice_diameter",
+    ),
+    TORQUE: ("effective_torque",),
+    Quantity(("power",), 0.0, 1e9): ("effective_power", "indicated_power"),
+    Quantity(("area",), 0.0, 1.0): ("card_area", "card_loop_area"),
+    Quantity(("pressure_by_length",), 1.0, 1e12): ("card_spring",),
+    _CYCLE_PRESSURE: (
+        "indicated_mean_pressure", "crank_side_pressure", "effective_mean_pressure", "air_pressure", "peak_pressure",
+    ),
+    SPEED: ("working_cycle_rate", "idle_speed"),
+    Quantity(("mass_rate",), 0.0, 1e6, above=True): ("fuel_rate", "air_rate", "coolant_rate"),
+    Quantity(("volume_rate",), 0.0, 1e3, above=True): ("fuel_flow",),
+    Quantity(("density",), 0.01, 2e3): ("fuel_density",),
+    Quantity(("fuel_consumption",), 1e-12, 1.0): ("effective_fuel_consumption",),
+    Quantity(("specific_energy",), 1e6, 2e8): ("fuel_heating_value",),
+    Quantity(("pressure",), 0.0, 1e7): ("orifice_drop", "mechanical_loss_constant"),
+    _TEMPERATURE: ("air_temperature",),
+    _WARMER: ("coolant_rise", "exhaust_rise"),
+    Quantity(("pressure_by_velocity",), 0.0, 1e6): ("mechanical_loss_slope",),
+    Quantity(("pressure_by_square_velocity",), 0.0, 1e5): ("mechanical_loss_square",),
+    Number(0.0, 1.0): ("mechanical_loss_share", "mechanical_efficiency", "discharge_coefficient"),
+}  # fmt: skip
+TEST = TableSpec("test", {
+    "cylinders": KeySpec(Number(1, MOST_CYLINDERS, whole=True)),
+    "strokes": KeySpec(Choice((4, 2))),
+    "one_cut": KeySpec(ListOf(Quantity(("force", "torque", "power"), 0.0, 1e9), fewest=2, most=MOST_CYLINDERS)),
+    **{name: KeySpec(kind) for kind, names in _TESTED.items() for name in names},
+    "coolant_heat": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), default="4186.8 J/(kg*K)",
+                            only={"coolant_rate": ()}),
+    "exhaust_heat": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), default="1005 J/(kg*K)", only={"exhaust_rise": ()}),
+})  # fmt: skip
+
 METHOD = TableSpec("method", {
     "kinematics": KeySpec(Text(20), default="exact"),
     "rod": KeySpec(Choice(("rigid", "two-mass"))),
@@ -730,8 +770,20 @@ MACHINE_FILE = TableSpec("file", {
     "balance": KeySpec(BALANCE),
     **LOADING,
     "flywheel": KeySpec(FLYWHEEL),
+    "test": KeySpec(TEST),
     "method": KeySpec(METHOD),
     "table": KeySpec(TABLE),
+})  # fmt: skip
+# a test alone, of an engine of which only its sizes are known
+_TURNED = TableSpec("crank", {key: _CRANK.keys[key]._replace(required=False) for key in ("radius", "stroke", "speed")})
+_BORED = ("bore", "displacement", "piston_rod_diameter")
+TEST_FILE = TableSpec("file", {
+    **TITLE,
+    "document": TEST_DOCUMENT,
+    "crank": KeySpec(_TURNED),
+    "cylinder": KeySpec(TableSpec("cylinder", {key: _CYLINDER.keys[key]._replace(required=False) for key in _BORED})),
+    "test": KeySpec(TEST, required=True),
+    "method": KeySpec(METHOD),
 })  # fmt: skip
 
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from crankwork import files
 from crankwork.analysis import prepare
 from crankwork.description import keys as engine_files
-from crankwork.description.build import SIZES, build_machine
+from crankwork.description.build import SIZES, build_machine, build_test
 from crankwork.description.keys import (
     FORMATS,
     LOADED_FILE,
@@ -27,6 +27,7 @@ from crankwork.description.keys import (
     METHOD,
     OWN_SIZES,
     SIZED_FILE,
+    TEST_FILE,
     stated_document,
 )
 from crankwork.description.links_keys import (
@@ -61,9 +62,16 @@ _ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZE
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
 _LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
-FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE)
+_ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE)
+FILES = (*_ENGINES, *_LOADED, *_LINKAGES, *_ALONE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
+# tables that need no mechanism, tables of one, and the keys of a file that has none of these
+_WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
+    ("rotor", (), ROTOR_FILE),
+    ("test", (*_OF_LINKAGES, "rod"), TEST_FILE),
+    ("stages", (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle"), STAGES_FILE),
+)
 # a name, and numbers of entries where it is a list
 _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
 # a text of a template by its key, and a comment that consists of it
@@ -174,7 +182,7 @@ def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
     """Return the keys that can never have an effect with the others, with the reason; none in files of format 1."""
     if values["format"] == 1:
         return {}
-    if keys in (*_TABULATED, TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE):
+    if keys in (*_TABULATED, *_ALONE):
         return {f"method.{name}": ErrorMessage("idle_method") for name in METHOD.keys if name != "pi"}
     idle = dict[str, ErrorMessage]()
     if keys in _LINKAGES:
@@ -276,6 +284,8 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | 
         if keys in _TABULATED:
             return build_tabulated(read_values, reader)
         return build_linkage(read_values, reader)
+    if keys is TEST_FILE:
+        return build_test(read_values, reader)
     return _solvable(build_machine(read_values, reader), read_values, reader)
 
 
@@ -305,14 +315,13 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return TRANSFER_FILE
     if isinstance(table := values.get("table"), dict) and "angles" in table and "rod" not in values:
         return GIVEN_MOTION_FILE
-    if "rotor" in values:
-        return ROTOR_FILE
+    for name, others, keys in _WITHOUT_MECHANISM:
+        if name in values and not any(other in values for other in others):
+            return keys
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
     crank = values.get("crank")
     is_started = "transient" in values and isinstance(crank, dict) and "speed" not in crank
-    if "stages" in values and not any(name in values for name in (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle")):
-        return STAGES_FILE
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else STARTED_FILE if is_started else LINKAGE_FILE
     cycle, cylinder, is_loaded = values.get("cycle"), values.get("cylinder"), not LOADING.keys().isdisjoint(values)

@@ -35,6 +35,7 @@ _SAME = {
     "captions.comparison": "tables.comparison",
     "captions.displacement": "quantities.piston_displacement",
     "captions.firing": "tables.firing",
+    "captions.fitted_polytropes": "tables.fitted_polytropes",
     "captions.friction": "tables.friction",
     "captions.harmonics": "tables.torque_harmonics",
     "captions.heat_balance": "headings.heat_balance",

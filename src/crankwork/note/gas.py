@@ -30,6 +30,7 @@ from crankwork.note.parts import (
     Lines,
     Listed,
     Places,
+    Rows,
     Section,
     Shown,
     Text,
@@ -37,6 +38,7 @@ from crankwork.note.parts import (
     full,
     in_full,
     machine_has,
+    works,
 )
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.symbols import symbol_box
@@ -445,6 +447,11 @@ SECTIONS = (
             Text("delivery_of_all"),
         )),
     ), lambda material: material.has_piston and material.results.solved.space is not None),
+    Section("burning", (
+        Head("heat_release"), Text("burning"), At("burning"), Lines("burning"),
+        Shown(("log_indicator", "heat_release", "recorded_cycles"), (Rows("fitted_polytropes", "fitted_polytropes"),)),
+    ), works("burning")),
+    Section("test", (Head("test"), Lines("test", intro="test", source="heywood_1988, ch. 2")), works("test")),
     Section("chambers", (
         Head("chambers"), Text("chambers", {"source": Citation(_VOLUME)}),
         When(lambda material: any(charge.exponent is None for charge in material.machine.charges.values()), (

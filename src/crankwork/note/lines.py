@@ -85,6 +85,13 @@ _FORCE_EXTREMES = tuple(
     for end in ("max", "min")
 )
 _PISTON_REDUCTION = ("reduced_inertia.", "reduced_inertia", "reduced_inertia_1.", "reduced_inertia_1")
+_BURNING = (
+    "cylinder_temperature", "gas_heat_ratio", "net_heat_rate", "motored_pressure", "wall_gas_speed",
+    "heat_transfer_coefficient", "wall_area", "wall_heat_rate", "gross_heat_rate", "burnt_fraction", "heat_released",
+    "wall_heat", "burnt_angle.", "burning_start.fit", "burning_duration.fit", "burning_shape.fit", "fuel_heat.fit",
+    "fit_scatter.fit", "pressure_rise_max", "gross_heat_rate_max", "indicated_mean_pressure.mean",
+    "mean_pressure_variation", "peak_pressure_variation",
+)  # fmt: skip
 _POWER = ("indicated_work", "indicated_mean_pressure", "indicated_power", "mean_torque")
 
 # of the whole engine
@@ -185,6 +192,8 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
         groups = _of_rotor(results)
     elif results.machine.linkage is None and results.machine.stages is not None:
         groups = iter((Group("stages", _LineFilter(results, 0.0).lines(_STAGES)),))
+    elif results.machine.test is not None:
+        groups = iter((_of_test(results),))
     else:
         groups = _of_links(results, degrees)
     return tuple(group for group in groups if group.lines)
@@ -209,6 +218,8 @@ def _of_piston(results: Results, angle: float, force_angle: float | None) -> Ite
         yield Group("reduction", _own(loaded, results, _of_cylinder(machine, _PISTON_REDUCTION)), force_angle)
     yield Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES))
     yield Group("power", _own(loaded, results, _of_cylinder(machine, _POWER if has_gas else ())))
+    yield Group("burning", _own(loaded, results, _BURNING if "net_heat" in trace else ()), force_angle)
+    yield _of_test(results)
     yield Group("delivery", _own(loaded, results, DELIVERY if "induced_volume" in trace else ()))
     yield Group("motor", _own(loaded, results, _MOTOR))
     if machine.engine is None:
@@ -225,6 +236,11 @@ def _of_piston(results: Results, angle: float, force_angle: float | None) -> Ite
     yield Group("flywheel", tuple(loaded.step(known) for known in values_by_method(trace)))
     orders = (*_orders(results, machine.engine), *_ROTATING, *_weights(results))
     yield Group("balance", _own(loaded, results, orders))
+
+
+def _of_test(results: Results) -> Group:
+    """Return the lines of what follows from a test."""
+    return Group("test", _own(results.moment(), results, results.groups.get("test", ())))
 
 
 def _of_cylinder(machine: Machine, keys: Iterable[str]) -> tuple[str, ...]:

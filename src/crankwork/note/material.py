@@ -71,6 +71,8 @@ ESSENTIAL = frozenset((
     "cooler_heat", "water_flow", "clearance_ratio", "swept_flow", "returned_power", "piston_rod_load",
     "crosshead_load", "mean_rod_load", "vessel_flow", "flow_pulsation", "vessel_volume_change", "vessel_saving",
 ))  # fmt: skip
+# groups that every note shows all of
+_WHOLE = ("test", "burning")
 # masses of a rod, which stand with those that they are parts of
 _OF_ROD = ("rod_small_end_mass", "rod_big_end_mass", "rod_centre_distance")
 # height of the figures of a linkage over that elsewhere
@@ -275,7 +277,7 @@ class Material:
         selected = self.lines(group, *kinds)
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
-        if not self.full:
+        if not self.full and group not in _WHOLE:
             selected = list(in_one_formula(selected)) if self.has_piston else selected
             # places of points stand with the motion, masses of the rod with the others
             places = () if group in ("motion", "driver") else ("point_x", "point_y")
@@ -284,6 +286,8 @@ class Material:
             # the derivative of a sum is that of its terms
             selected = [row for row in selected if not row.key.startswith("reduced_inertia_1.")]
         # of families, such as the journals of a shaft, a table has the others
+        if group in _WHOLE:
+            return self.worked(selected)
         if first or not self.full:
             return self.worked(_first(selected))
         return self.worked(_first(selected, by_part=True) if self.has_piston else selected)

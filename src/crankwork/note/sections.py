@@ -63,7 +63,7 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 # sections in the order of a school; those that results have nothing for are left out
 _LINKAGE = (
-    "summary", "task", "structure", "planes", "static", "dynamic", "driving", "moments", "energy", "kinematics",
+    "summary", "task", "test", "structure", "planes", "static", "dynamic", "driving", "moments", "energy", "kinematics",
     "quality", "chambers", "stages", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics",
     "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources",
     "appendix",
@@ -72,18 +72,19 @@ _LINKAGE = (
 _FULL = ("bearings",)
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
-        "summary", "data", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin",
-        "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "summary", "data", "nomenclature", "cycle", "indicator", "burning", "test", "kinematics", "dynamics", "torque",
+        "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
+        "appendix",
     ),
     # after the data the twelve sections that such notes have, then what conclusions refer to
     "vi": (
-        "summary", "data", "nomenclature", "cycle", "indicator", "displacement", "velocity", "acceleration",
-        "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "mains",
-        "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "summary", "data", "nomenclature", "cycle", "indicator", "burning", "test", "displacement", "velocity",
+        "acceleration", "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear",
+        "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     "en": (
-        "summary", "data", "method", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque",
-        "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
+        "summary", "data", "method", "nomenclature", "cycle", "indicator", "burning", "test", "kinematics", "dynamics",
+        "torque", "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
         "appendix",
     ),
 }  # fmt: skip
@@ -175,6 +176,8 @@ def _titles(material: Material) -> tuple[str, str]:
         space = material.results.solved.space
         is_engine = space is not None and space.work > 0 and "bore" in material.summary
         return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
+    if material.machine.test is not None:
+        return words.title("test"), "test_subtitle"
     if material.machine.turning is not None:
         return words.title("turning"), "turning_subtitle"
     if material.machine.rotor is not None:

@@ -41,7 +41,16 @@ from crankwork.report.flywheel import (
     wittenbauer,
 )
 from crankwork.report.forces import force_law, forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
-from crankwork.report.gas import chamber_indicator, indicator, pressure, pump_flow, rod_loads, stage_indicator
+from crankwork.report.gas import (
+    chamber_indicator,
+    indicator,
+    log_indicator,
+    pressure,
+    pump_flow,
+    recorded_cycles,
+    rod_loads,
+    stage_indicator,
+)
 from crankwork.report.harmonics import phase_stars, torque_harmonics
 from crankwork.report.lever import has_lever, lever_figure
 from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of, quantity_of
@@ -337,6 +346,20 @@ def _loops(machine: Drawn) -> bool:
     return shaft and not has_turning_moment(machine) and "energy_extremes" in machine.results.listings
 
 
+def _heat_release(machine: Drawn) -> Drawing:
+    """Return rates of heat release, heat and fraction burnt over the closed period."""
+    gas = machine.results.machine.gas
+    if gas is None or gas.combustion is None:
+        raise TypeError("no combustion was analysed")
+    data = gas.combustion
+    keys = ("net_heat_rate", "gross_heat_rate"), ("net_heat", "gross_heat"), ("burnt_fraction",)
+    # without losses both are one
+    panels = [group[-1:] if "wall_heat_rate" not in machine.results.columns else group for group in keys]
+    degrees = np.arange(data.start, data.end + 0.25, 0.5)
+    columns = machine.results.columns_at(degrees, tuple(itertools.chain(*panels)))
+    return curves(degrees, columns, panels, translate("tables.combustion", machine.language), machine.style)
+
+
 def _orders(machine: Drawn) -> str:
     return "orders" if "piston_velocity_first_order" in machine.columns else ""
 
@@ -416,6 +439,9 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("tolle", tolle, piston("piston_displacement")),
     Diagram("pressure", pressure, piston("gas_pressure")),
     Diagram("indicator", indicator, piston("gas_pressure")),
+    Diagram("log_indicator", log_indicator, has("net_heat")),
+    Construction("heat_release", _heat_release, has("net_heat")),
+    Diagram("recorded_cycles", recorded_cycles, has("recorded_cycles")),
     Diagram("piston_forces", piston_forces, piston("piston_force"), is_of_forces=True),
     _forces("rod_forces", rod_force=SOLID, side_force=DASHED),
     _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED, side_force=DASH_DOT),

@@ -238,6 +238,34 @@ def _dead_centres(engine: Drawn, graph: Graph) -> None:
         paper.text(middle, level - 3, engine.symbol(key), size=8, anchor="middle")
 
 
+def log_indicator(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the decimal logarithms of pressure and volume, in which polytropes are straight."""
+    key, absolute = diagram(engine)
+    volume, pressure = (np.log10(np.maximum(values, 1e-9)) for values in (engine.values("cylinder_volume"), absolute))
+    paper, box = sheet(_INDICATOR)
+    across, up = (limits(values, is_place=True) for values in (volume, pressure))
+    graph = Graph(paper, box, across, up, engine.language)
+    graph.frame(round_ticks(*across, 8), round_ticks(*up, 9))
+    graph.curve(key, volume, pressure, angles=engine.degrees)
+    graph.x_title(f"lg {engine.symbol('cylinder_volume')} ({engine.unit('cylinder_volume')})")
+    graph.y_title(f"lg {engine.symbol(key)} ({engine.unit(key)})")
+    return paper, {"log_indicator": graph}
+
+
+def recorded_cycles(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the indicated mean pressure of every recorded cycle, with their mean."""
+    listed, key = engine.results.listings["recorded_cycles"].columns, "indicated_mean_pressure"
+    numbers, values = listed["cycle_number"], engine.shown(key, listed[key])
+    paper, box = sheet(_INDICATOR / 2)
+    ends = limits(values, margin=0.2, is_place=True)
+    graph = Graph(paper, box, (0.0, float(numbers[-1]) + 1), ends, engine.language)
+    graph.frame(round_ticks(0.0, float(numbers[-1]), 10), round_ticks(*ends, 6))
+    graph.curve(key, numbers, values)
+    graph.level(float(np.mean(values)), DASHED, "mean")
+    engine.name_axes(graph, "cycle_number", key)
+    return paper, {"recorded_cycles": graph}
+
+
 def chamber_indicator(machine: Drawn) -> Drawing:
     """Return pressure over volume of every chamber."""
     results = machine.results

@@ -1,0 +1,254 @@
+"""What a test bed measures, and the power, losses, efficiencies and heat that follow from whatever of it is known."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from crankwork.errors import CrankworkError
+from crankwork.formula.calculation import Calculation
+from crankwork.formula.expression import FORMULAS, Value, formula
+from crankwork.kinematics.slider_crank import mean_piston_speed
+from crankwork.loads.gas import piston_area, swept_volume
+from crankwork.locale import ErrorMessage
+from crankwork.notation import ARGUMENTS
+from crankwork.working_cycle import engine_size
+from crankwork.working_cycle.charge import charge_density
+
+_TEXT, _AIR = "heywood_1988, ch. 2", "heywood_1988, ch. 13"
+# keys of the table of a test that are no quantities: those that they state
+MEASURED = {
+    "cylinders": "cylinder_count", "strokes": "strokes_per_cycle", "air_rate": "gas_mass_flow",
+    "air_pressure": "charge_pressure", "air_temperature": "charge_temperature", "peak_pressure": "cylinder_pressure",
+}  # fmt: skip
+# what may be left out, with its neutral value
+_NEUTRAL = {
+    "brake_spring_load": 0.0, "brake_rope_diameter": 0.0, "card_loop_area": 0.0, "mechanical_loss_slope": 0.0,
+    "mechanical_loss_square": 0.0, "mechanical_loss_share": 0.0,
+}  # fmt: skip
+
+
+@formula("brake_arm", _TEXT)
+def arm_of_drum(D_drum: Value, d_rope: Value) -> Value:
+    """Arm of a rope brake: to the middle of the rope."""
+    return (D_drum + d_rope) / 2
+
+
+@formula("brake_arm", _TEXT)
+def arm_of_circumference(C_brake: Value, pi: Value) -> Value:
+    """Arm of a brake whose effective circumference is known."""
+    return C_brake / (2 * pi)
+
+
+@formula("effective_torque", _TEXT)
+def brake_torque(F_brake: Value, F_spring: Value, R_brake: Value) -> Value:
+    """Torque of a brake by its net load."""
+    return (F_brake - F_spring) * R_brake
+
+
+@formula("effective_power", _TEXT)
+def power_of_torque(M_e: Value, w: Value) -> Value:
+    """Power of a torque."""
+    return M_e * w
+
+
+@formula("effective_torque", _TEXT)
+def torque_of_power(N_e: Value, w: Value) -> Value:
+    """Torque of a power."""
+    return N_e / w
+
+
+@formula("indicated_mean_pressure", _TEXT)
+def card_mean_pressure(A_card: Value, A_loop: Value, l_card: Value, k_card: Value) -> Value:
+    """Mean pressure of an indicator card: its area, less the loop of gas exchange, over its length, by its spring."""
+    return (A_card - A_loop) / l_card * k_card
+
+
+@formula("working_cycle_rate", _TEXT)
+def working_cycle_rate(w: Value, tau_s: Value) -> Value:
+    """Working cycles of a cylinder, a turn for each."""
+    return 2 * w / tau_s
+
+
+@formula("indicated_power", _TEXT)
+def double_acting_power(  # noqa: PLR0913 - one argument per symbol
+    p_ind: Value, p_crank: Value, V_engine: Value, i_cyl: Value, A_rod: Value, stroke: Value, f_cycle: Value, pi: Value
+) -> Value:
+    """Indicated power of both sides of pistons, that of the crank side without the area of the piston rod."""
+    return (p_ind * V_engine + p_crank * (V_engine - i_cyl * A_rod * stroke)) * f_cycle / (2 * pi)
+
+
+@formula("indicated_power", _TEXT)
+def power_of_mean_pressure(p_ind: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
+    """Indicated power of all cylinders by the mean pressure."""
+    return p_ind * V_engine * f_cycle / (2 * pi)
+
+
+@formula("indicated_mean_pressure", _TEXT)
+def mean_pressure_of_power(N_ind: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
+    """Mean pressure that gives an indicated power."""
+    return 2 * pi * N_ind / (V_engine * f_cycle)
+
+
+@formula("effective_mean_pressure", _TEXT)
+def brake_mean_pressure(N_e: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
+    """Mean pressure that gives a brake power."""
+    return 2 * pi * N_e / (V_engine * f_cycle)
+
+
+@formula("effective_power", _TEXT)
+def power_of_brake_mean_pressure(p_e: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
+    """Brake power by the mean pressure."""
+    return p_e * V_engine * f_cycle / (2 * pi)
+
+
+@formula("indicated_power", _AIR)
+def morse_power(i_cyl: Value, N_e: Value, N_cut: Value) -> Value:
+    """Indicated power by a test of Morse: what the brake power falls by as cylinders are cut out one by one."""
+    return i_cyl * N_e - N_cut
+
+
+@formula("mechanical_loss_pressure", "chen_flynn_1965")
+def chen_flynn_loss(a_loss: Value, b_loss: Value, S_pm: Value, c_loss: Value, k_loss: Value, p_cyl: Value) -> Value:
+    """Mean pressure of mechanical losses by piston speed and greatest pressure."""
+    return a_loss + b_loss * S_pm + c_loss * S_pm**2 + k_loss * p_cyl
+
+
+@formula("mechanical_efficiency", _TEXT)
+def efficiency_of_powers(N_e: Value, N_ind: Value) -> Value:
+    """Brake power over indicated power."""
+    return N_e / N_ind
+
+
+@formula("indicated_power", _TEXT)
+def indicated_of_brake(N_e: Value, eta_m: Value) -> Value:
+    """Indicated power of a brake power."""
+    return N_e / eta_m
+
+
+@formula("effective_power", _TEXT)
+def brake_of_indicated(N_ind: Value, eta_m: Value) -> Value:
+    """Brake power of an indicated power."""
+    return N_ind * eta_m
+
+
+@formula("mechanical_loss_power", _TEXT)
+def mechanical_loss_power(N_ind: Value, N_e: Value) -> Value:
+    """Power that the engine itself takes."""
+    return N_ind - N_e
+
+
+@formula("fuel_rate", _TEXT)
+def fuel_of_volume(V_fuel: Value, rho_fuel: Value) -> Value:
+    """Fuel by its volume flow."""
+    return V_fuel * rho_fuel
+
+
+@formula("effective_fuel_consumption", _TEXT)
+def brake_consumption(G_f: Value, N_e: Value) -> Value:
+    """Fuel per brake work."""
+    return G_f / N_e
+
+
+@formula("indicated_fuel_consumption", _TEXT)
+def consumption_of_indicated(G_f: Value, N_ind: Value) -> Value:
+    """Fuel per indicated work."""
+    return G_f / N_ind
+
+
+@formula("effective_efficiency", _TEXT)
+def brake_thermal_efficiency(N_e: Value, Q_0: Value) -> Value:
+    """Brake power over the heat of the fuel."""
+    return N_e / Q_0
+
+
+@formula("indicated_efficiency", _TEXT)
+def indicated_thermal_efficiency(N_ind: Value, Q_0: Value) -> Value:
+    """Indicated power over the heat of the fuel."""
+    return N_ind / Q_0
+
+
+@formula("gas_mass_flow", _TEXT)
+def orifice_flow(C_d: Value, pi: Value, d_orifice: Value, rho_k: Value, dp_orifice: Value) -> Value:
+    """Air through the orifice of an air box."""
+    return C_d * pi * d_orifice**2 / 4 * np.sqrt(2 * rho_k * dp_orifice)
+
+
+@formula("volumetric_efficiency", _TEXT)
+def measured_volumetric_efficiency(G_air: Value, rho_k: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
+    """Air taken in over what the swept volume would hold."""
+    return 2 * pi * G_air / (rho_k * V_engine * f_cycle)
+
+
+@formula("air_fuel_ratio", _TEXT)
+def air_fuel_ratio(G_air: Value, G_f: Value) -> Value:
+    """Air over fuel by mass."""
+    return G_air / G_f
+
+
+@formula("heat_to_coolant", _TEXT)
+def heat_of_coolant(G_cool: Value, c_water: Value, dT_water: Value) -> Value:
+    """Heat that the coolant carries away."""
+    return G_cool * c_water * dT_water
+
+
+@formula("heat_to_exhaust", _TEXT)
+def heat_of_exhaust(G_air: Value, G_f: Value, c_exh: Value, dT_exh: Value) -> Value:
+    """Heat that the exhaust gas carries away, of air and fuel."""
+    return (G_air + G_f) * c_exh * dT_exh
+
+
+@formula("speed_droop", _AIR)
+def speed_droop(w_idle: Value, w: Value) -> Value:
+    """What a governed speed falls by from idling to this load, over this speed."""
+    return (w_idle - w) / w
+
+
+# in the order in which what is known gives what is not; a quantity that is known already is not worked again
+_RULES = (
+    piston_area, swept_volume, engine_size.displacement, mean_piston_speed, working_cycle_rate,
+    arm_of_drum, arm_of_circumference, brake_torque, power_of_torque, morse_power,
+    card_mean_pressure, double_acting_power, power_of_mean_pressure, chen_flynn_loss,
+    engine_size.effective_mean_pressure, power_of_brake_mean_pressure, indicated_of_brake, brake_of_indicated,
+    mean_pressure_of_power, brake_mean_pressure, efficiency_of_powers, mechanical_loss_power,
+    torque_of_power, fuel_of_volume, engine_size.fuel_rate, brake_consumption, consumption_of_indicated,
+    engine_size.heat_supplied, brake_thermal_efficiency, indicated_thermal_efficiency, charge_density, orifice_flow,
+    measured_volumetric_efficiency, air_fuel_ratio, heat_of_coolant, heat_of_exhaust, speed_droop,
+)  # fmt: skip
+
+
+def work_test(worked: Calculation, pi: float) -> None:
+    """Work everything that follows from what is known of a test; raise if nothing does.
+
+    `worked`: has the inputs; takes the results.
+    """
+    for key, neutral in _NEUTRAL.items():
+        if key not in worked.known:
+            worked.absent(key, neutral)
+    # a speed or a pressure that no loss follows
+    for key, coefficient in (("stroke", "mechanical_loss_slope"), ("cylinder_pressure", "mechanical_loss_share")):
+        if key not in worked.known and worked[coefficient].is_absent:
+            worked.absent("mean_piston_speed" if key == "stroke" else key)
+    before = -1
+    while len(worked.found) != before:
+        before = len(worked.found)
+        for rule in _RULES:
+            entry = FORMULAS[rule.__name__]
+            taken = (name for name in entry.arguments if name != "pi")
+            if entry.quantity not in worked.known and all(ARGUMENTS[name].quantity in worked.known for name in taken):
+                worked(rule, **({"pi": pi} if "pi" in entry.arguments else {}))
+    if not worked.found:
+        raise CrankworkError(ErrorMessage("test_nothing"))
+    if "heat_supplied" in worked.found and "effective_power" in worked.known:
+        _balance_heat(worked)
+
+
+def _balance_heat(worked: Calculation) -> None:
+    """Add what is left of the heat of the fuel, and the share of each part of it."""
+    parts = {"effective": worked["effective_power"]}
+    parts |= {name: worked[f"heat_{name}"] for name in ("to_coolant", "to_exhaust") if f"heat_{name}" in worked.found}
+    rest = worked["heat_supplied"]
+    for part in parts.values():
+        rest = rest - part
+    parts["rest"] = worked.keep(rest.named("heat_rest"))
+    for name, part in parts.items():
+        worked.keep((part / worked["heat_supplied"]).named(f"heat_share.{name}"))
