@@ -594,6 +594,7 @@ ARGUMENTS: dict[str, Argument] = {
     "K_M": Argument("moment_factor"),
     "a_z": Argument("balance_pitch"),
     "k_b": Argument("balanced_share"),
+    "f_z3": Argument("way_share_3"),
     "T_p": Argument("swing_period"),
     "L_p": Argument("pendulum_length"),
     "L_q": Argument("pendulum_length", "{}₂"),

@@ -72,6 +72,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "frequency": [(2 * math.pi, "Hz 1/s Гц 1/с")],
     "angular_acceleration": [(1.0, "rad/s2 рад/с2")],
+    "angular_jerk": [(1.0, "rad/s3 рад/с3")],
+    "jerk": [(1.0, "m/s3 м/с3"), (1e-3, "mm/s3 мм/с3"), (_FT, "ft/s3"), (_IN, "in/s3")],
     "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (1 / 3.6, "km/h км/ч"), (_FT, "ft/s"),
                  (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
     "acceleration": [(1.0, "m/s2 м/с2"), (1e-3, "mm/s2 мм/с2"), (_FT, "ft/s2"), (_IN, "in/s2")],
@@ -210,6 +212,7 @@ System = Literal["metric", "si", "imperial"]
 _IMPERIAL = {
     "mm": "in", "m": "ft", "cm2": "in2", "mm2": "in2", "cm3": "in3", "l": "in3", "m3": "ft3", "kg": "lb", "g": "oz",
     "g/cm2": "lb/ft2", "kg*m2": "lb*ft2", "kg*m": "lb*ft", "m/s": "ft/s", "m/s2": "ft/s2", "MPa": "psi", "N": "lbf",
+    "m/s3": "ft/s3",
     "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
     "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",

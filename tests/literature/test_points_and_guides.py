@@ -174,3 +174,24 @@ def test_four_bar_given_by_vectors():
     assert found["point_velocity_y.B"] == pytest.approx(0, abs=1e-15)
     assert found["point_acceleration_x.B"] == pytest.approx(0.4338192419825073, rel=1e-12)
     assert found["point_acceleration_y.B"] == pytest.approx(-0.1 * (3 / 7) ** 2, rel=1e-12)
+
+
+def test_a_guide_that_the_crank_carries():
+    """A block on a slot of the crank, 2 rad/s2 faster: along w^2 s is missing, across are eps s and 2 w s'."""
+    found = at(
+        """
+        fixed_points = { O = ["0 mm", "0 mm"], C = ["150 mm", "0 mm"] }
+        crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "100 rpm", angular_acceleration = "2 rad/s2" }
+        links.lever = { joins = ["C", "B"], length = "300 mm" }
+        guides.slot = { link = "crank", angle = "0 deg" }
+        sliders.block = { guide = "slot", pin = "B" }
+        positions.B = ["440 mm", "0 mm"]
+        """,
+        30.0,
+    )
+    th, w, s = math.pi / 6, 10 * math.pi / 3, found["slider_displacement.block"]
+    assert s == pytest.approx(0.15 * math.cos(th) + math.sqrt(0.3**2 - (0.15 * math.sin(th)) ** 2), rel=1e-12)
+    assert found["coriolis_acceleration.block"] == pytest.approx(2 * w * found["slider_velocity.block"], rel=1e-12)
+    along, across = found["slider_acceleration.block"] - w**2 * s, 2 * s + found["coriolis_acceleration.block"]
+    x, y = along * math.cos(th) - across * math.sin(th), along * math.sin(th) + across * math.cos(th)
+    assert (found["point_acceleration_x.B"], found["point_acceleration_y.B"]) == pytest.approx((x, y), rel=1e-12)

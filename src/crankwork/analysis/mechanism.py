@@ -92,7 +92,8 @@ _STATIC_EXTREMES = ("static_torque_max", "static_torque_min")
 _MOST_COEFFICIENTS = 10_000_000
 _OF_DRIVER = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
-    "driver_angular_acceleration", "driver_force", "driver_torque", "driver_power",
+    "driver_angular_acceleration", "driver_jerk", "driver_angular_jerk",
+    "driver_force", "driver_torque", "driver_power",
 )  # fmt: skip
 # how far from a change point the routes are compared, which lose their digits in it [deg]
 _SIDE_STEP = 0.05

@@ -30,7 +30,7 @@ from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.instant_centres import instant_centres
 from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.motion_laws import clock
+from crankwork.kinematics.motion_laws import clock, traced_jerk
 from crankwork.kinematics.traced_motion import angle_of, interpolant_of, traced_mechanism
 from crankwork.loads.load import applied_loads
 from crankwork.machine import Drive, Machine
@@ -81,6 +81,8 @@ def _by_law(solved: PreparedLinkage, running: OperatingState, law: Law) -> dict[
     machine, motion = solved.machine, running.motion
     q, rate, second = motion.driver or Transfer(None, None, None)
     columns = {"time": clock(law), **{item.key: item for item in (q, rate, second)}}
+    jerk = traced_jerk(law, turns=machine.mechanism.driver.turns) if law.has_jerk else None
+    columns |= {jerk.key: jerk} if jerk is not None else {}
     columns |= {**dict(_moving(machine, motion, rate, second)), **solved.filling.columns}
     if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction:
         torque, forces = _forces(solved, running)
@@ -121,9 +123,13 @@ def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) 
         yield f"slider_velocity.{name}", rates.slider_velocity(value.position_1, w)
         yield f"slider_acceleration.{name}", rates.slider_acceleration(value.position_2, w, value.position_1, eps)
         turning = motion.frames[carrier[name]].angle_1 if name in carrier else absent("link_angle_1")
-        if not turning.is_absent:
+        on_crank = isinstance(driver, Crank) and carrier.get(name) == driver.link
+        if on_crank or not turning.is_absent:
             velocity = rates.slider_velocity(value.position_1, w).named(f"slider_velocity.{name}")
-            carried = rates.link_angular_velocity(turning, w).named(f"link_angular_velocity.{carrier[name]}")
+            carried = rates.link_angular_velocity(turning, w)
+            if on_crank:
+                carried = w if driver.direction > 0 else -w
+            carried = carried.named(f"link_angular_velocity.{carrier[name]}")
             yield f"coriolis_acceleration.{name}", rates.coriolis_acceleration(carried, velocity)
     yield from transmissions(machine.mechanism, motion)
     yield from instant_centres(machine.mechanism, motion)

@@ -591,7 +591,7 @@ def build_law(values: Values, reader: Reader) -> Law | None:
         )
         for (_, segment), to, time in zip(segments, filled[1:], times, strict=True)
     )  # fmt: skip
-    return Law(made, period, filled[0])
+    return Law(made, period, filled[0], has_jerk=driver["jerk"] or False)
 
 
 def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:

@@ -39,7 +39,7 @@ from crankwork.description.keys import (
     with_defaults,
 )
 from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, OneForAll, TableSpec
-from crankwork.description.value_types import Choice, Number, Quantity, Text
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
 from crankwork.mechanism.driver import LawKind
 from crankwork.shaft.torque_diagram import Shape
 
@@ -102,6 +102,7 @@ _DRIVER = TableSpec("driver", {
     "start": KeySpec(_COORDINATE_OF_DRIVER),
     "law": KeySpec(ListOf(_SEGMENT, fewest=1, most=100), required=True),
     "period": KeySpec(TIME),
+    "jerk": KeySpec(Flag()),
 })  # fmt: skip
 
 _GEARED = TableSpec("geared", {

@@ -54,6 +54,24 @@ def polynomial_law_2(  # noqa: PLR0913 - the coefficients of a polynomial
     return 2 * c_2 + 6 * c_3 * z + 12 * c_4 * z**2 + 20 * c_5 * z**3 + 30 * c_6 * z**4 + 42 * c_7 * z**5
 
 
+@formula("way_share_3", _LAWS)
+def polynomial_law_3(z: Value, c_3: Value, c_4: Value, c_5: Value, c_6: Value, c_7: Value) -> Value:
+    """Normalised jerk of a polynomial law."""
+    return 6 * c_3 + 24 * c_4 * z + 60 * c_5 * z**2 + 120 * c_6 * z**3 + 210 * c_7 * z**4
+
+
+@formula("way_share_3", _LAWS)
+def sine_law_3(A_s: Value, k_s: Value, z: Value, d_s: Value) -> Value:
+    """Normalised jerk of a law with a sine."""
+    return A_s * k_s * np.cos(k_s * z + d_s)
+
+
+@formula("driver_jerk", _LAWS)
+def law_jerk(h_q: Value, f_z3: Value, T_s: Value) -> Value:
+    """Third rate of the coordinate of a driver."""
+    return h_q * f_z3 / T_s**3
+
+
 @formula("way_share", _LAWS)
 def sine_law(c_0: Value, c_1: Value, z: Value, A_s: Value, k_s: Value, d_s: Value) -> Value:
     """Share of the way by a straight line less a sine."""
@@ -353,6 +371,17 @@ def clock(law: Law) -> TracedValue:
     return TracedValue(Tabulated(Clock(law.period), "clock"), "time")
 
 
+def _timed(
+    law: Law, time: TracedValue, segment: _PlacedSegment, number: int, way_key: str
+) -> tuple[TracedValue, TracedValue, TracedValue]:
+    """Return the travel and the duration of a segment, and the share of its time."""
+    begins, lasts = (law.period * degrees / 360.0 for degrees in (segment.start, segment.end - segment.start))
+    begin = given(f"start_time.{number}", begins, f"driver.law[{number - 1}].over") if begins else absent("start_time")
+    duration = given(f"segment_time.{number}", lasts, f"driver.law[{number}].over")
+    z = ((time - begin) / duration).named(f"time_share.{number}")
+    return given(f"{way_key}.{number}", segment.travel, f"driver.law[{number}].to"), duration, z
+
+
 def traced_law(law: Law, *, turns: bool) -> Transfer:
     """Return the traced coordinate, rate and second rate of a driver over the angle of one period.
 
@@ -362,18 +391,14 @@ def traced_law(law: Law, *, turns: bool) -> Transfer:
     time, ends = clock(law), list[float]()
     columns: tuple[list[TracedValue], ...] = ([], [], [])
     for number, segment in enumerate(_placed_segments(law), start=1):
-        before, path = f"driver.law[{number - 1}]" if number > 1 else "driver", f"driver.law[{number}]"
-        origin = given(f"{keys[0]}.{number}", segment.origin, f"{before}.{'to' if number > 1 else 'start'}")
+        path = f"driver.law[{number - 1}].to" if number > 1 else "driver.start"
+        origin = given(f"{keys[0]}.{number}", segment.origin, path)
         if not segment.pieces:
             ends.append(segment.end)
             for column, known in zip(columns, (origin, absent(keys[1]), absent(keys[2])), strict=True):
                 column.append(known)
             continue
-        begins, lasts = (law.period * degrees / 360.0 for degrees in (segment.start, segment.end - segment.start))
-        begin = given(f"start_time.{number}", begins, f"{before}.over") if begins else absent("start_time")
-        travel = given(f"{way_key}.{number}", segment.travel, f"{path}.to")
-        duration = given(f"segment_time.{number}", lasts, f"{path}.over")
-        z = ((time - begin) / duration).named(f"time_share.{number}")
+        travel, duration, z = _timed(law, time, segment, number, way_key)
         for end, (f, f_1, f_2) in (
             segment.pieces.pieces(z)
             if isinstance(segment.pieces, _Own)
@@ -385,6 +410,29 @@ def traced_law(law: Law, *, turns: bool) -> Transfer:
             columns[2].append(f_2 if f_2.is_absent else law_acceleration(travel, f_2, duration))
     ends[-1] = 360.0
     return Transfer(*(TracedValue(Piecewise(ends, tuple(laws)), key) for laws, key in zip(columns, keys, strict=True)))
+
+
+def traced_jerk(law: Law, *, turns: bool) -> TracedValue | None:
+    """Return the traced third rate of a driver over the angle of one period, None for a law of the user.
+
+    Where the second rate jumps there is an impulse besides.
+    """
+    time, laws, ends = clock(law), list[TracedValue](), list[float]()
+    for number, segment in enumerate(_placed_segments(law), start=1):
+        if isinstance(segment.pieces, _Own):
+            return None
+        travel, duration, z = _timed(law, time, segment, number, _KEYS[turns][1])
+        for piece in segment.pieces or (LawPiece(1.0, ()),):
+            ends.append(segment.start + piece.end * (segment.end - segment.start))
+            c = [_coefficient(value) for value in (*piece.coefficients[3:], *[0.0] * 5)][:5]
+            third = absent("way_share_3")
+            if piece.amplitude:
+                third = sine_law_3(piece.amplitude, piece.frequency, z, _coefficient(piece.phase))
+            elif any(piece.coefficients[3:]):
+                third = polynomial_law_3(z, *c)
+            laws.append(third if third.is_absent else law_jerk(travel, third, duration))
+    ends[-1] = 360.0
+    return TracedValue(Piecewise(ends, tuple(laws)), "driver_angular_jerk" if turns else "driver_jerk")
 
 
 def _normalised(piece: LawPiece, z: TracedValue) -> tuple[TracedValue, TracedValue, TracedValue]:

@@ -63,6 +63,7 @@ class Law:
     segments: tuple[Segment, ...]
     period: float  # [s]
     start: float  # The coordinate at time zero [m] or [rad]
+    has_jerk: bool = False  # Whether its third rate is told
 
 
 @dataclass(frozen=True)

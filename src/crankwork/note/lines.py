@@ -142,7 +142,7 @@ _ROTATING = (
 # of links, chambers and shafts
 _DRIVER = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
-    "driver_angular_acceleration",
+    "driver_angular_acceleration", "driver_jerk", "driver_angular_jerk",
 )  # fmt: skip
 _MOTION = (
     "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle", "link_angular_velocity",

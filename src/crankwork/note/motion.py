@@ -46,7 +46,7 @@ _ACCELERATING = ("point_acceleration", "link_angular_acceleration", "slider_acce
 _CENTRES, _POSITIONS = "khurmi_gupta_2005, ch. 6", "artobolevsky_1988, ch. 4"
 _COORDINATE = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
-    "driver_angular_acceleration",
+    "driver_angular_acceleration", "driver_jerk", "driver_angular_jerk",
 )  # fmt: skip
 
 
