@@ -371,11 +371,11 @@ class Material:
         for name in drawn:
             is_alone = name in _CONSTRUCTED and not labels["tables"]
             labels.setdefault("constructions" if is_alone else "figures", []).append(f"f:{name}")
-        told = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
-        if {"tables", "figures"} <= told.keys():
-            yield self.words.paragraph("see_both", **told)
-        elif told:
-            sentences = [run for what in told for run in (" ", *self.words.sentence(f"see_{what}", **told))]
+        references = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
+        if {"tables", "figures"} <= references.keys():
+            yield self.words.paragraph("see_both", **references)
+        elif references:
+            sentences = [run for what in references for run in (" ", *self.words.sentence(f"see_{what}", **references))]
             yield Paragraph(tuple(sentences[1:]))
         for row in self._rows(drawn, shown_tables):
             yield from row

@@ -47,6 +47,7 @@ from crankwork.note.material import Material
 from crankwork.note.numbering import equation_source
 from crankwork.note.options import NoteOptions
 from crankwork.note.parts import Section, written
+from crankwork.note.printed_units import printed_unit
 from crankwork.note.tables import symbol_table
 from crankwork.report.gas import FOUR_STROKE
 
@@ -158,13 +159,15 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
     values = [block for block in kept if isinstance(block, Table) and block.label in _OF_VALUES]
     named = {cell.content for table in values for row in table.rows for cell in row if isinstance(cell, Math)}
     listed = [meaning for meaning in meanings(kept, words.language) if meaning.symbol not in named]
+    # forces by the piston area are no forces
+    newton = f", {printed_unit('N', words.language)}" if material.per_area else ""
     for block in kept:
         if getattr(block, "label", "") != closing.NOMENCLATURE:
             yield block
         elif listed:
             yield block
             yield words.paragraph("symbols_listed", table=Reference("t:nomenclature"))
-            yield symbol_table([(Math(meaning.symbol), meaning.text) for meaning in listed], words)
+            yield symbol_table([(Math(meaning.symbol), meaning.text.removesuffix(newton)) for meaning in listed], words)
 
 
 def _titles(material: Material) -> tuple[str, str]:
