@@ -420,7 +420,9 @@ class Material:
     def remaining_lines(self) -> list[Block]:
         """Return equations of lines that no section has shown: single values, and formulas that are new."""
         all_lines = (line for group in self.groups.values() for line in group.lines)
-        lines = [line for line in all_lines if not isinstance(line, ValueLine | DelayedLine)]
+        # a table adds up the forces on a shaft
+        lines = [line for line in all_lines if not isinstance(line, ValueLine | DelayedLine)
+                 and not line.key.startswith("bearing_force_")]  # fmt: skip
         if not self.has_engine:
             lines = [line for line in lines if not line.key.startswith(_OF_ENGINES)]
         return self.worked(

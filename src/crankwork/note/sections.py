@@ -35,7 +35,6 @@ from crankwork.note.document import (
     ItemList,
     Math,
     Note,
-    PageBreak,
     Paragraph,
     Person,
     Reference,
@@ -134,7 +133,7 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
         title, title_page = "", replace(title_page, below=(title, *title_page.below))
     front: list[Block] = [title_page]
     if options.full or not title_page.is_plain:
-        front += [Contents(), *([PageBreak()] if options.full else [])]
+        front.append(Contents())
     return Note(
         options.title or title or made,
         options.language,
