@@ -95,7 +95,14 @@ def test_everything_is_numbered_referred_to_and_explained_once(notes):
         assert [name for name, block in drawn.items() if block.alt in ("", block.caption)] == []
         if "pressure" in drawn:
             without = {name for name, block in drawn.items() if not re.search(r"\d", block.alt)}
-            assert without <= {"phase_stars", "balance_ellipses", "cylinder_torques", "main_wear", "scheme"}
+            assert without <= {
+                "phase_stars",
+                "wittenbauer",
+                "balance_ellipses",
+                "cylinder_torques",
+                "main_wear",
+                "scheme",
+            }
 
     assert failing(notes, check) == {}
 

@@ -41,6 +41,7 @@ NOT_HELD = {
     "t:transfer": "as they are given, in metres",
     "reduced": "the parts of a tabulated reduced inertia are unnamed terms of one sum",
     "t:polytropes": "the polytropes run over the volume, not over the crank angle",
+    "t:on_journal": "forces on throws at one angle, and their shares",
     "t:errors": "an error as a share of the largest value",
     "t:total": "the total torque as a tangential force per piston area",
     "t:cycle_data": "heat release is integrated, not remembered",

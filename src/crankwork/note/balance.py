@@ -112,7 +112,8 @@ def _drawn_orders(material: Material) -> Iterator[Block]:
     """Yield the free forces, drawn where those of several orders are seen."""
     sizes = [np.abs(np.nan_to_num(values)) for key, values in material.results.listings["balance"].columns.items()
              if key in ("free_force", "free_moment")]  # fmt: skip
-    seen = sum(int(np.sum(size > _SEEN * size.max())) for size in sizes)
+    # what counterweights leave may be all of it
+    seen = sum(len(np.unique(np.round(size[size > _SEEN * size.max()] / size.max(), 3))) for size in sizes)
     figures = ("balance_orders", "balance_ellipses") if material.full or seen > 1 else ()
     return material.presented([_by_order(material)], figures)
 

@@ -394,11 +394,11 @@ class Material:
         for name in names if self.has_piston else ():
             is_alone = name in _CONSTRUCTED and not tables
             labels.setdefault("constructions" if is_alone else "figures", []).append(f"f:{name}")
-        told = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
-        if {"tables", "figures"} <= told.keys():
-            yield self.words.sentence("see_both", **told)
+        references = {what: self._reference(what, shown) for what, shown in labels.items() if shown}
+        if {"tables", "figures"} <= references.keys():
+            yield self.words.sentence("see_both", **references)
         else:
-            yield from (self.words.sentence(f"see_{what}", **told) for what in told)
+            yield from (self.words.sentence(f"see_{what}", **references) for what in references)
         for name in () if self.has_piston else names:
             yield self.words.sentence("figure_shows", what=self._title(name), figure=listed([f"f:{name}"]))
 
@@ -438,7 +438,9 @@ class Material:
     def remaining_lines(self) -> list[Block]:
         """Return equations of lines that no section has shown: single values, and formulas that are new."""
         all_lines = (line for group in self.groups.values() for line in group.lines)
-        lines = [line for line in all_lines if not isinstance(line, ValueLine | DelayedLine)]
+        # a table adds up the forces on a shaft
+        lines = [line for line in all_lines if not isinstance(line, ValueLine | DelayedLine)
+                 and not line.key.startswith("bearing_force_")]  # fmt: skip
         if not self.has_engine:
             lines = [line for line in lines if not line.key.startswith(_OF_ENGINES)]
         return self.worked(

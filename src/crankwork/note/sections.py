@@ -35,7 +35,6 @@ from crankwork.note.document import (
     ItemList,
     Math,
     Note,
-    PageBreak,
     Paragraph,
     Person,
     Reference,
@@ -47,6 +46,7 @@ from crankwork.note.material import Material
 from crankwork.note.numbering import equation_source
 from crankwork.note.options import NoteOptions
 from crankwork.note.parts import Section, written
+from crankwork.note.printed_units import printed_unit
 from crankwork.note.tables import symbol_table
 from crankwork.report.gas import FOUR_STROKE
 
@@ -135,7 +135,7 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
         title, title_page = "", replace(title_page, below=(title, *title_page.below))
     front: list[Block] = [title_page]
     if options.full or not title_page.is_plain:
-        front += [Contents(), *([PageBreak()] if options.full else [])]
+        front.append(Contents())
     return Note(
         options.title or title or made,
         options.language,
@@ -160,13 +160,15 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
     values = [block for block in kept if isinstance(block, Table) and block.label in _OF_VALUES]
     named = {cell.content for table in values for row in table.rows for cell in row if isinstance(cell, Math)}
     listed = [meaning for meaning in meanings(kept, words.language) if meaning.symbol not in named]
+    # forces by the piston area are no forces
+    newton = f", {printed_unit('N', words.language)}" if material.per_area else ""
     for block in kept:
         if getattr(block, "label", "") != closing.NOMENCLATURE:
             yield block
         elif listed:
             yield block
             yield words.paragraph("symbols_listed", table=Reference("t:nomenclature"))
-            yield symbol_table([(Math(meaning.symbol), meaning.text) for meaning in listed], words)
+            yield symbol_table([(Math(meaning.symbol), meaning.text.removesuffix(newton)) for meaning in listed], words)
 
 
 def _titles(material: Material) -> tuple[str, str]:

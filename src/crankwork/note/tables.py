@@ -156,6 +156,7 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
     shown = list[str]()
     for key, values in listing.columns.items():
         if not columns:
+            shown.append(key)
             entries = [words.number(value) for value in material.shown(key, values).tolist()]
             columns.append(Column(words.titled(key), entries))
         elif not (listing.names and material.has_piston) or np.any(np.nan_to_num(values[rows])):

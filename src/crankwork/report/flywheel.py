@@ -70,12 +70,12 @@ def excess_work(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         sign = f"{symbol}{',' if '_' in symbol else '_'}{name}$"
         mark_point(graph, name, float(np.degrees(place)), value, sign)
     place = 0.5 * engine.cycle * (0.02 if np.degrees(extremes.at_largest) > 0.1 * engine.cycle else 1.9)
-    sign, way = engine.symbol("excess_work")[:-1], ""
+    sign, method = engine.symbol("excess_work")[:-1], ""
     if not math.isclose(excess.work, engine.results.summary.get("excess_work", excess.work), rel_tol=_SAME):
         # the flywheel may follow from another one
         sign = f"{sign}{',' if '_' in sign else '_'}{texts('marks', language)['mertsalov']}"
-        way = f", {translate('report.way_mertsalov', language)}"
-    _span(graph, place, unit_less, f"{sign}$ = {engine.value('excess_work', excess.work)}{way}")
+        method = f", {translate('report.way_mertsalov', language)}"
+    _span(graph, place, unit_less, f"{sign}$ = {engine.value('excess_work', excess.work)}{method}")
     engine.name_axes(graph, "crank_angle", "excess_work")
     return paper, {"torque": torque, "energy": graph}
 

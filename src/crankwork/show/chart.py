@@ -273,7 +273,7 @@ def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
     return lines
 
 
-def _beside(lines: Sequence[tuple[Row | None, str]]) -> int:
+def _column_count(lines: Sequence[tuple[Row | None, str]]) -> int:
     """Return how many lines of a legend stand beside each other: two where each is short."""
     layout = current_layout()
     half = (layout.width - layout.left - 8) / 2
@@ -284,15 +284,15 @@ def _beside(lines: Sequence[tuple[Row | None, str]]) -> int:
 def legend_height(rows: Sequence[Row]) -> float:
     """Return the height of a legend above its graph. [pt]"""
     lines = _legend_lines(rows)
-    return LEGEND_ROW * -(-len(lines) // _beside(lines)) + 5.0 if rows else 0.0
+    return LEGEND_ROW * -(-len(lines) // _column_count(lines)) + 5.0 if rows else 0.0
 
 
 def legend(paper: Canvas, rows: Sequence[Row], top: float) -> None:
     """Draw a legend at the left edge of a graph, from `top` downward. [pt]"""
     lines, layout = _legend_lines(rows), current_layout()
-    beside = _beside(lines)
+    columns = _column_count(lines)
     for index, (row, text) in enumerate(lines):
-        line, column = divmod(index, beside)
+        line, column = divmod(index, columns)
         left, level = layout.left + 8 + column * (layout.width - layout.left - 8) / 2, top + LEGEND_ROW * line
         if row is not None and row.style == CIRCLE:
             paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=0.9)
