@@ -8,10 +8,11 @@ import pytest
 import crankwork
 from crankwork.analysis.vector_polygons import worked_position
 from crankwork.note.contents import note_of
-from crankwork.note.document import Equation, Heading, Paragraph
+from crankwork.note.document import Equation, Figure, Heading, Paragraph
 from crankwork.note.layout import Digits, Fence, Fraction, Root, Row, Script, Sign, Upright
 from crankwork.note.options import NoteOptions
 from crankwork.report.display import link_label
+from crankwork.show import scene
 from each import for_each
 from notes import blocks, note, printed, results, tables, words
 
@@ -144,7 +145,27 @@ def test_reactions_read_on_force_plans_are_those_of_the_calculation(name):
 
 def test_the_first_drawing_has_the_lengths_of_its_links():
     (said,) = sentences("press-geometry", "Размеры в")
-    assert said.endswith("OA 50; AB 600; CB 210.")
+    assert "OA 50; AB 600; CB 210." in said
+
+
+@for_each("name", ["press-geometry", "knuckle-press"])
+def test_inertia_forces_are_masses_times_accelerations(name):
+    """Masses and moments of inertia are those of the file; a negative torque goes with a positive acceleration."""
+    found = tables(short(name))
+    masses = {row[0]: [numbers(cell)[0] if cell != "–" else 0.0 for cell in row[4:6]] for row in found["links"].rows}
+    for row in found["inertia_loads"].rows:
+        mass, inertia = masses[row[0].partition(" ")[0]]
+        acceleration, force, torque = (numbers(row[index])[0] if row[index] != "–" else 0.0 for index in (1, 2, 5))
+        assert force * (1e3 if name == "knuckle-press" else 1.0) == pytest.approx(mass * acceleration, rel=2e-3)
+        rate = numbers(row[4])[0] if row[4] != "–" else 0.0
+        assert torque == pytest.approx(-inertia * rate, rel=2e-3)
+
+
+def test_dimension_lines_of_the_first_drawing_have_the_lengths_of_the_file():
+    """Rod 600 mm, rocker 210 mm, pivots 632 mm apart; of a crank of 50 mm no line is drawn, it would be too short."""
+    drawing = next(block.drawing for block in blocks(short("press-geometry"), Figure) if block.label == "f:machine")
+    said = {item.text for item in drawing.items if isinstance(item, scene.Text)}
+    assert {"600", "210", "632"} <= said
 
 
 TRIAD = """

@@ -40,6 +40,7 @@ NOT_HELD = {
     "transfer": "sizes of transfer functions are made for the table from those of the points",
     "t:transfer": "as they are given, in metres",
     "reduced": "the parts of a tabulated reduced inertia are unnamed terms of one sum",
+    "t:inertia_loads": "sizes of forces with parts along axes; test_inertia_forces_are_masses_times_accelerations",
     "t:polytropes": "the polytropes run over the volume, not over the crank angle",
     "t:on_journal": "forces on throws at one angle, and their shares",
     "t:errors": "an error as a share of the largest value",

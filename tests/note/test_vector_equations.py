@@ -112,7 +112,7 @@ def test_a_name_of_the_user_stands_as_it_is():
 
     text = template("four-bar").replace("coupler", "Koppel").replace("rocker", "Schwinge")
     found = tables(note_of(analyse(read_machine(text)), NoteOptions(language="ru", figures=False)))
-    assert [row[1] for row in found["links"].rows] == ["Koppel", "Schwinge"]
+    assert [row[1] for row in found["links"].rows] == ["кривошип", "Koppel", "Schwinge"]
 
 
 def test_a_title_may_be_stated_in_each_language():

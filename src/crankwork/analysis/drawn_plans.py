@@ -18,6 +18,7 @@ from crankwork.analysis.skeleton import guide_pose, skeleton
 from crankwork.analysis.vector_polygons import Kind, accelerations, driver_rates, velocities
 from crankwork.kinematics.crank_grid import Array
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 from crankwork.mechanism.joints import group_links
 from crankwork.mechanism.mechanism import Crank, Mechanism
@@ -91,9 +92,9 @@ def constructed_plans(
 
 
 def is_constructed(mechanism: Mechanism) -> bool:
-    """Return whether a crank drives a linkage each group of which two lines solve."""
+    """Return whether a crank or a slider drives a linkage each group of which two lines solve."""
     unsolved = (isinstance(group, Chain) or (isinstance(group, RPP) and group.guide.link) for group in mechanism.dyads)
-    return isinstance(mechanism.driver, Crank) and not any(unsolved)
+    return isinstance(mechanism.driver, Crank | DrivingSlider) and not any(unsolved)
 
 
 def _plane(vector: Array) -> complex:
@@ -189,13 +190,15 @@ class _Paper:
         driver, plan = self._mechanism.driver, self._given[self._order - 1]
         geared = driver.geared if isinstance(driver, Crank) else ()
         for link in (driver.link, *(crank.link for crank in geared)):
-            self._rates[self._order - 1][link] = plan.turning[self._number(link)]
-            base, *letters = (self._shape.letters[name] for name in self._shape.member(link).points)
-            for letter in letters:
+            self._rates[self._order - 1][link] = plan.turning.get(self._number(link), 0.0)
+            letters = [self._shape.letters[name] for name in self._shape.member(link).points]
+            for letter in letters[len(letters) > 1 :]:
                 exact = _plane(plan.nodes[letter])
                 size = abs(exact)
                 self._nodes[letter] = self._rounded(exact / size * self._read(size / self._scale)) if size else 0j
-                self._images[link] = base, self._nodes[letter] / (self._drawn[letter] - self._drawn[base])
+                # a piece that slides does not turn
+                arm = self._drawn[letter] - self._drawn[letters[0]]
+                self._images[link] = letters[0], self._nodes[letter] / arm if arm else 0j
 
     def _completed(self, link: str) -> Iterator[str]:
         """Put the other points of a link on the plan, and yield them."""

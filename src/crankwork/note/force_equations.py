@@ -83,7 +83,7 @@ def equilibrium(material: Material) -> Iterator[Block]:
     moments, solved = moment_equations(material.results, degrees), set[str]()
     plans = force_plans(material.results, degrees)
     if plans:
-        yield words.paragraph("equilibrium", value=words.place_text(degrees))
+        yield words.paragraph("equilibrium", **words.at_place(degrees))
     for plan in plans:
         key = "drawing.links" if len(plan.links) > 1 else "drawing.link"
         links = ", ".join(str(numbers[link]) for link in plan.links)
@@ -115,8 +115,8 @@ def equilibrium(material: Material) -> Iterator[Block]:
 def _parts(force: PolygonForce, name: str, words: Words, *, is_known: bool) -> Iterator[tuple[str, int]]:
     """Yield the vectors of a force and how much of each is known: a part across its link wholly, that along it not."""
     if is_known or force.across is None:
-        # of a guide the line of action is known
-        yield name, 2 if is_known else 1 if force.kind == "guide" else 0
+        # of a guide and of a slider that drives the line of action is known
+        yield name, 2 if is_known else 1 if force.kind in ("guide", "driver") else 0
         return
     if any(force.across):
         yield f"{name}{vector_mark('tangential', words.language)}", 2

@@ -195,13 +195,13 @@ SECTIONS = (
     Section("crank_forces", (Head("forces"), *_WORKED, _ON_CRANKPIN, _OF_FORCES, _OF_POWER), works("forces")),
     # what a driver with a law of its own has to give
     Section("forces", (
-        Head("linkage_forces"), When(_has_bodies, _INERTIA_OF_LINKS), Text("driven_reactions"),
-        Lines("joint_forces"), Lines("driver_force"),
+        Head("linkage_forces"), When(_has_bodies, _INERTIA_OF_LINKS), Text("driven_reactions"), equilibrium,
+        When(either(full, lacks(has_polygons)), (Lines("joint_forces"),)), Lines("driver_force"),
         Places("reactions", (
             "driver_force", "driver_torque", "driver_power", "joint_force", "axial_force", "normal_force",
             "normal_moment",
         ), "reactions", filled=True),
-        Shown(("process_force", "joint_forces")),
+        Shown(("process_force", "joint_forces", "force_plans")), compared_forces,
     ), every(_is_loaded, driven)),
     Section("forces", (
         Head("linkage_forces"), _sizes,

@@ -158,7 +158,7 @@ SECTIONS = (
         At("driver"), Lines("driver"), Places("driver", _COORDINATE), Lines("motion"),
         Places("positions", _positions), Places("velocities", _MOVING), Places("accelerations", _ACCELERATING),
         _INSTANT_CENTRES, Shown(("driver", "sliders")),
-        When(draws("velocity_plan"), (*_POLYGONS, Shown(("velocity_plan", "acceleration_plan")))),
+        When(draws("velocity_plan"), (*_POLYGONS, vector_plans)),
     ), every(drawn, driven)),
     Section("kinematics", (
         Head("linkage_kinematics"), Head("plans", 2), Text("positions"), Shown(("position_plans",)),

@@ -73,23 +73,25 @@ def vector_plans(material: Material) -> Iterator[Block]:
     degrees, links = worked_position(results), material.structure.links if material.structure is not None else ()
     figure, scales = _figure(material, degrees, links)
     exact, drawn = (constructed_plans(results, degrees, scales, precision, links) for precision in (0.0, READING))
-    if exact is None or drawn is None or not isinstance(mechanism.driver, Crank):
+    if exact is None or drawn is None:
         yield from material.presented((), ("velocity_plan", "acceleration_plan"))
         return
-    yield words.paragraph("vector_equations", value=words.place_text(degrees))
+    yield words.paragraph("vector_equations", **words.at_place(degrees))
     coincident = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, 1.0, links).coincident
     points = [
         words.phrase("beneath", point=point, link=str(link), other=over) for point, (link, over) in coincident.items()
     ]
     if points:
         yield words.paragraph("coincident", points="; ".join(points))
-    shape, rate = skeleton(mechanism, links), exact[0].turning[1]
-    arm = PlanVector("".join(shape.letters[name] for name in shape.members[0].points[:2]), "normal", 0j, link=1,
-                     arm=mechanism.driver.radius)  # fmt: skip
+    shape = skeleton(mechanism, links)
+    ends, driver = "".join(shape.letters[name] for name in shape.members[0].points[:2]), mechanism.driver
+    arm = PlanVector(ends, "normal", 0j, link=1, arm=driver.radius if isinstance(driver, Crank) else 0.0)
     for order, plan in enumerate(exact):
         writer = _Writer(order, scales[1 + order], exact[0].turning, words)
         yield words.paragraph(f"equations_of_{_KINDS[order]}")
-        yield writer.block((), [writer.crank(arm, rate, exact[1].turning[1])])
+        turning = [each.turning.get(1, 0.0) for each in exact]
+        given = driver_rates(results, results.columns_at(np.array([degrees])))[order][0]
+        yield writer.block((), [writer.crank(arm, *turning) if arm.arm else writer.slider(ends[0], float(given))])
         for group in plan.groups:
             yield writer.block(
                 group, [line for equation in group for part in equation.right for line in writer.worked(part)]
@@ -192,6 +194,13 @@ class _Writer:
         mark, turn = vector_mark("tangential", self._words.language), self._turn(1, 1)
         product = (turn, "", length, "=", abs(second), "·", arm.arm, "=", abs(second) * arm.arm)
         return row(normal, _COMMA, self._worked("m/s2", f"a_{name}{mark}", "=", *product))
+
+    def slider(self, letter: str, rate: float) -> Row:
+        """Return the velocity or acceleration of a slider that drives, which its law gives."""
+        name = symbol_box(f"{_SIGNS[self._order]}_{letter}")
+        size = self._worked(_UNITS[self._order], Fence(name, "||"), "=", abs(rate))
+        where = Upright(self._words.phrase("along_guide", link="1"))
+        return row(size, _COMMA, name, Sign("∥", "relation"), where)
 
     def _normal(self, name: str, arm: PlanVector, rate: float) -> Row:
         squared = Script(self._number(abs(rate)), None, Upright("2"))

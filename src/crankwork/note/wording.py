@@ -188,6 +188,11 @@ class Words:
             return Math(self.symbol("time")), degrees / 360.0 * self.period, "s"
         return Math(self.symbol("crank_angle")), degrees, "deg"
 
+    def at_place(self, degrees: float) -> dict[str, Run]:
+        """Return what a sentence puts in for a position: its sign, in the place of the crank angle, and its value."""
+        return {"crank_angle": Math(self.symbol("time" if self.period else "crank_angle")),
+                "value": self.place_text(degrees)}  # fmt: skip
+
     def place_text(self, degrees: float) -> str:
         """Return a position with its unit."""
         _, value, unit = self.place(degrees)
