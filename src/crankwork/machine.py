@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from crankwork.shaft.flywheel_sizing import FlywheelSpec
     from crankwork.shaft.motor import GearedMotor, MotorSelection
     from crankwork.shaft.torque_diagram import ShaftTorques
+    from crankwork.shaft.torsion_model import TorsionModel
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 __all__ = [
@@ -391,6 +392,8 @@ class Machine:
         The engine of which this crank mechanism is a cylinder.
     notices : tuple of (str, mapping)
         Notices about the description of a linkage: code and values.
+    torsion : TorsionModel or None
+        The torsional system of the shaft.
     """
 
     mechanism: Mechanism
@@ -432,6 +435,8 @@ class Machine:
     stated: Mapping[str, InputNumber] = field(default_factory=dict, compare=False, repr=False)
     # What the description states and what it leaves to defaults; None without a description
     inputs: Callable[[], FileInputs] | None = field(default=None, compare=False, repr=False)
+    # The torsional system of its shaft
+    torsion: TorsionModel | None = None
 
     @property
     def lengths(self) -> SliderCrank | None:

@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "387632d48a2b",
-    "formulas": "86d5a259bf51",
-    "quantities": "e91c7c7c54a6",
-    "defaults": "56939ece9434",
+    "symbols": "821e9d95cd02",
+    "formulas": "08710d195220",
+    "quantities": "cd5cf967cb98",
+    "defaults": "ea5221cb7c84",
 }
 
 

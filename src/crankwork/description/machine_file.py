@@ -35,6 +35,7 @@ from crankwork.description.links_keys import (
     LINKAGE_FILE,
     PRESS_FILE,
     STARTED_FILE,
+    TORSION_FILE,
     TRANSFER_FILE,
     TURNING_FILE,
 )
@@ -59,8 +60,11 @@ _ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZE
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
 _LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
-FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
+FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE, TORSION_FILE)
 _MAX_PARTS = 8
+_MECHANISM = frozenset(
+    ("rod", "piston", "cylinder", "engine", "gas", "cycle", "links", "sliders", "guides", "fixed_points")
+)
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
 _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
@@ -172,7 +176,7 @@ def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
     """Return the keys that can never have an effect with the others, with the reason; none in files of format 1."""
     if values["format"] == 1:
         return {}
-    if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE):
+    if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE, TORSION_FILE):
         return {f"method.{name}": ErrorMessage("idle_method") for name in METHOD.keys if name != "pi"}
     idle = dict[str, ErrorMessage]()
     if keys in _LINKAGES:
@@ -251,6 +255,10 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
 
 def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | None:
     """Return the machine of values that were read, or None after complaints."""
+    if keys is TORSION_FILE:
+        from crankwork.description.torsion_build import build_torsion_alone  # noqa: PLC0415 - few files load it
+
+        return build_torsion_alone(read_values, reader)
     if keys in (TURNING_FILE, PRESS_FILE):
         # most files do not load it
         from crankwork.description.torque_build import build_turning  # noqa: PLC0415 - loaded where it is needed
@@ -297,6 +305,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return GIVEN_MOTION_FILE
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
+    if "torsion" in values and _MECHANISM.isdisjoint(values):
+        return TORSION_FILE
     crank = values.get("crank")
     is_started = "transient" in values and isinstance(crank, dict) and "speed" not in crank
     if any(name in values for name in _OF_LINKAGES):
