@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "821e9d95cd02",
     "formulas": "08710d195220",
-    "quantities": "cd5cf967cb98",
+    "quantities": "dfc65ed0d777",
     "defaults": "ea5221cb7c84",
 }
 

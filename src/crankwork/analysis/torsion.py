@@ -8,10 +8,19 @@ from dataclasses import replace
 
 import numpy as np
 
+from crankwork.analysis.deferred import Deferred
 from crankwork.analysis.prepared import PreparedMachine
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.torsion_machine import throw_inertias
 from crankwork.analysis.torsion_trace import TorsionTrace, torsion_trace
+from crankwork.analysis.torsion_vibration import (
+    damped_values,
+    damper_values,
+    forced_values,
+    vibrating,
+    vibration_listings,
+    vibration_notices,
+)
 from crankwork.formula.traced_value import FunctionValue, ProcedureValue, TracedValue
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
@@ -42,18 +51,28 @@ def with_torsion(results: Results) -> Results:
     values = dict(trace.values) | dict(_traced_modes(trace, natural, modes))
     nodes = dict(_nodes(trace, values, modes))
     values |= {key: value for pair in nodes.values() for key, value in pair.items()}
+    system, pi = vibrating(results, trace, modes), results.method.pi
+    values |= damper_values(results, system) | forced_values(system, pi)
     single = {key: value for key, value in values.items() if _is_single(key, value)}
-    listings = _listings(trace, modes) | _node_listing(nodes) | _holzer(trace, natural, modes)
+    listings = {**results.listings, **_listings(trace, modes), **_node_listing(nodes), **_holzer(trace, natural, modes)}
+    if damped := damped_values(system):
+        listings["damped_modes"] = Listing(damped)
+    notices = vibration_notices(system, None if radius is None else radius.value)
     return replace(
         results,
         summary={**results.summary, **{key: value.value for key, value in single.items()}},
         checks={**results.checks, **_checks(trace, natural, modes)},
-        listings={**results.listings, **listings},
+        notices=(*results.notices, *notices),
+        listings=Deferred(listings, lambda: vibration_listings(system, pi)),
         trace={**results.trace, **values},
     )
 
 
-_SINGLE = ("natural_frequency", "node_distance", "equivalent_node_distance")
+_SINGLE = (
+    "natural_frequency", "node_distance", "equivalent_node_distance", "vibration_amplitude", "vibration_torque",
+    "vibration_stress", "effective_inertia", "damper_inertia_ratio", "optimum_tuning", "optimum_damping_ratio",
+    "optimum_damping", "optimum_stiffness", "least_magnification",
+)  # fmt: skip
 _CALCULATED = ("torsional_stiffness", "equivalent_length", "equivalent_inertia")
 
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, NamedTuple
 
 from crankwork.analysis.crankshaft_bearings import rotating_mass_of
 from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
+from crankwork.analysis.harmonics import curve_of
 from crankwork.analysis.prepared import PreparedCylinder
 from crankwork.analysis.reduction import MOVING
 from crankwork.cylinders.engines import inline
+from crankwork.cylinders.layout import CylinderPlace
+from crankwork.cylinders.torque import curve_harmonics
 from crankwork.formula.cycle_interpolant import CycleInterpolant
-from crankwork.formula.traced_value import TracedValue, total
+from crankwork.formula.traced_value import HarmonicCoefficient, TracedValue, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Engine
 
@@ -54,3 +57,45 @@ def throw_inertias(results: Results) -> tuple[Mapping[str, TracedValue], TracedV
         rotating = rotating_mass_of(engine, place) * radius * radius
         parts += [means[id(cylinder)], rotating.named("reduced_inertia.rotating")]
     return {name: total("disc_inertia", parts) for name, parts in throws.items()}, radius
+
+
+class _Harmonic(NamedTuple):
+    """One order of a torque of a cylinder, traced, and whether it grows with the square of the speed."""
+
+    order: float
+    cosine: TracedValue
+    sine: TracedValue
+    is_inertia: bool
+
+
+def gas_and_inertia_torques(
+    engine: MultiCylinderEngine, highest: float
+) -> Iterator[tuple[CylinderPlace, tuple[_Harmonic, ...]]]:
+    """Yield every cylinder with the harmonics of its torque: of its gas, then of all else (den_hartog_1956, ch. 5)."""
+    kinds = dict[int, tuple[_Harmonic, ...]]()
+    cycle = engine.layout.cycle
+    for place, cylinder in zip(engine.layout.places, engine.cylinders, strict=True):
+        if id(cylinder) not in kinds:
+            own, torque = cylinder.trace, cylinder.trace["crank_torque"]
+            columns = {"crank_torque.inertia": torque.named("crank_torque.inertia")}
+            if "gas_force" in own:
+                gas = (own["gas_force"] * own["piston_transfer_1"]).named("crank_torque.gas")
+                columns = {gas.key: gas, "crank_torque.inertia": (torque - gas).named("crank_torque.inertia")}
+            over = CycleInterpolant(columns, CrankGrid.from_degrees, cycle)
+            kinds[id(cylinder)] = tuple(
+                harmonic for key in columns for harmonic in _harmonics(over, key, round(highest * cycle / _TURN))
+            )
+        yield place, kinds[id(cylinder)]
+
+
+def _harmonics(over: CycleInterpolant, key: str, count: int) -> Iterator[_Harmonic]:
+    """Yield the harmonics of a torque."""
+    if over.is_zero(key):
+        return
+    column, harmonics = over.columns[key], curve_harmonics(curve_of(over, key), count)
+    for order, a, b in zip(harmonics.orders.tolist(), harmonics.cosine.tolist(), harmonics.sine.tolist(), strict=True):
+        cosine, sine = (
+            TracedValue(HarmonicCoefficient(value, column, part, order), f"harmonic_{part}.{order:g}")
+            for part, value in (("cosine", a), ("sine", b))
+        )
+        yield _Harmonic(order, cosine, sine, key.endswith("inertia"))

@@ -512,6 +512,8 @@ _TORSION = (
     Quantity("equivalent_node_distance", "mm",
              "Distance of a node from the first end of its shaft on the equivalent length."),
     Quantity("damping_ratio", "", "Damping of a mode over its critical damping."),
+    Quantity("damped_frequency", "Hz", "Frequency of free vibration with damping."),
+    Quantity("loss_factor", "", "Part of a stiffness that damps, over the stiffness."),
     Quantity("disc_torque", "N*m", "Torque of the inertia of a disc at an amplitude of the first of one radian."),
     Quantity("holzer_sum", "N*m", "Sum of the torques of inertia up to a disc: the torque in the shaft behind it."),
     Quantity("shaft_twist", "rad", "Twist of a shaft at an amplitude of the first disc of one radian."),

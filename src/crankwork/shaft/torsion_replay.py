@@ -144,8 +144,9 @@ class ForcedVibration:
         orders, torque = self.amplitudes(numbers, speeds)
         count, kinds = speeds.size, orders.size
         frequency = np.outer(speeds, orders).ravel()
-        angle, inside = system.forced(frequency, torque.reshape(count * kinds, -1))
-        angle, inside = angle.reshape(count, kinds, -1), inside.reshape(count, kinds, -1)
+        angle, inside = system.forced(frequency, torque.reshape(count * kinds, structure.discs))
+        angle = angle.reshape(count, kinds, structure.discs)
+        inside = inside.reshape(count, kinds, len(structure.shafts))
         both = np.concatenate([angle, inside], axis=2)
         largest = np.zeros((count, both.shape[2]))
         if kinds:
