@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from crankwork.shaft.flywheel_sizing import FlywheelSpec
     from crankwork.shaft.motor import GearedMotor, MotorSelection
     from crankwork.shaft.torque_diagram import ShaftTorques
+    from crankwork.shaft.torsion_model import TorsionModel
     from crankwork.working_cycle.burning_analysis import BurningAnalysis
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
@@ -405,6 +406,8 @@ class Machine:
         Notices about the description of a linkage: code and values.
     test : mapping of str to tuple of float or None
         What a test bed measured, by key of its table; several numbers where one cylinder is cut out. [SI]
+    torsion : TorsionModel or None
+        The torsional system of the shaft.
     """
 
     mechanism: Mechanism
@@ -456,6 +459,8 @@ class Machine:
     crossheads: Mapping[str, float] = field(default_factory=dict)
     vessels: Mapping[str, Vessel] = field(default_factory=dict)
     test: Mapping[str, tuple[float, ...]] | None = None
+    # The torsional system of its shaft
+    torsion: TorsionModel | None = None
 
     @property
     def lengths(self) -> SliderCrank | None:

@@ -51,6 +51,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1e-6, "cm3 cc см3"), (1e-3, "l L dm3 л дм3"), (1e-9, "mm3 мм3"), (1.0, "m3 м3"), (_IN**3, "in3 cu.in"),
         (_FT**3, "ft3 cu.ft"),
     ],
+    "area_moment": [(1e-8, "cm4 см4"), (1e-12, "mm4 мм4"), (1.0, "m4 м4"), (_IN**4, "in4")],
     "mass": [
         (1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (_LB, "lb lbm"), (_LB / 16, "oz"), (_SLUG, "slug"),
         (2000 * _LB, "ton(US)"), (2240 * _LB, "ton(UK)"), (KGF, "kgf*s2/m kG*s2/m кгс·с2/м"),
@@ -78,7 +79,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
                  (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
     "acceleration": [(1.0, "m/s2 м/с2"), (1e-3, "mm/s2 мм/с2"), (_FT, "ft/s2"), (_IN, "in/s2")],
     "pressure": [
-        (1e6, "MPa МПа MN/m2 МН/м2 N/mm2 Н/мм2"), (1e3, "kPa кПа kN/m2"), (1.0, "Pa Па N/m2"), (1e5, "bar бар"),
+        (1e6, "MPa МПа MN/m2 МН/м2 N/mm2 Н/мм2"), (1e9, "GPa ГПа GN/m2 kN/mm2"),
+        (1e3, "kPa кПа kN/m2"), (1.0, "Pa Па N/m2"), (1e5, "bar бар"),
         (1e2, "hPa гПа mbar мбар"), (KGF * 1e4, "kgf/cm2 кгс/см2 kG/cm2 kp/cm2 at ат"),
         (133.322387415, "mmHg ммртст мм_рт.ст."), (101325.0 / 760, "Torr торр"), (101325.0, "atm атм"),
         (_LBF / _IN**2, "psi lbf/in2"), (_LBF / _FT**2, "psf lbf/ft2"),
@@ -89,6 +91,10 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1.0, "N*s/m Н·с/м"), (1e3, "kN*s/m N*s/mm кН·с/м"), (_LBF / _IN, "lbf*s/in"), (_LBF / _FT, "lbf*s/ft"),
     ],
     "angular_damping": [(1.0, "N*m*s/rad N*m*s Н·м·с/рад Н·м·с"), (_LBF * _FT, "lbf*ft*s/rad lbf*ft*s")],
+    "torsional_stiffness": [
+        (1.0, "N*m/rad Н·м/рад"), (1e3, "kN*m/rad кН·м/рад"), (1e6, "MN*m/rad МН·м/рад"), (KGF, "kgf*m/rad кгс·м/рад"),
+        (_LBF * _FT, "lbf*ft/rad lb-ft/rad"), (_LBF * _IN, "lbf*in/rad lb-in/rad"),
+    ],
     "force": [
         (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (10.0, "daN даН"), (KGF, "kgf кгс kG"), (1e3 * KGF, "tf тс"),
         (_LBF, "lbf"), (1e3 * _LBF, "kip klbf"),
@@ -215,6 +221,7 @@ _IMPERIAL = {
     "m/s3": "ft/s3",
     "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
+    "N*m/rad": "lbf*in/rad", "cm4": "in4",
     "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
     "m3/min": "ft3/min", "MPa/deg": "psi/deg", "MPa/mm": "psi/in", "J/deg": "ft*lbf/deg", "degC": "degF",
 }  # fmt: skip

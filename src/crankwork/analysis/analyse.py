@@ -79,6 +79,10 @@ def analyse(
     used = method or machine.method
     engine = _engine_of(machine, used)
     results = _analysed(engine or machine, grid, method, progress)
+    if machine.torsion is not None:
+        from crankwork.analysis.torsion import with_torsion  # noqa: PLC0415 - few machines vibrate
+
+        results = with_torsion(results)
     stated = tuple(Notice(*notice) for notice in machine.notices)
     other = partial(_in_other_form, machine, results.grid, used, is_engine=engine is not None)
     notices = (*stated, *results.notices, *implausible(results))
@@ -150,6 +154,10 @@ def _analysed(
     machine: Machine, grid: CrankGrid | None, method: Method | None, progress: Callable[[float], None] | None
 ) -> Results:
     # imported by kind of machine, since loading the other packages would take longer than the analysis
+    if machine.turning is not None and not machine.turning.diagrams:
+        from crankwork.analysis.torsion import shaft_alone  # noqa: PLC0415 - few machines vibrate
+
+        return shaft_alone(machine, grid)
     if machine.turning is not None:
         from crankwork.analysis.given_torques import analyse_turning  # noqa: PLC0415 - loaded where it is needed
 

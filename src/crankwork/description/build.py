@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from crankwork.description.drive_build import read_flywheel
 from crankwork.description.measured_build import build_gas
@@ -28,6 +29,9 @@ from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
 from crankwork.method import EXACT, Method
 from crankwork.units import UNITS
 from crankwork.working_cycle.engine_size import bore_and_stroke
+
+if TYPE_CHECKING:
+    from crankwork.shaft.torsion_model import TorsionModel
 
 _LEAST_RISE = 1e-3
 _RADIANS = [name for name, unit in UNITS.items() if unit.dimension == "speed" and unit.factor == 1.0]
@@ -72,6 +76,7 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
     if own or values["gas"]["measured"]["columns"]:
         engine, gas = _with_own_gas(values, engine, gas, reader)
     speed = crank_speed(crank["speed"], method) if crank["speed"] else 0.0
+    torsion = _torsion(values, engine, lengths, reader)
     if "recovery" in flywheel and masses and (masses.piston or masses.rod_small_end) and method.name != "textbook":
         reader.add_error("flywheel.recovery", ErrorMessage("recovery_of_linkage"))
     drive = read_flywheel(flywheel, Drive(), speed, reader, pi=method.pi)
@@ -96,6 +101,7 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
         stated=stated,
         rod_equivalent=rod["equivalent"] or "",
         test=test_values(values) if "test" in values else None,
+        torsion=torsion,
     )
 
 
@@ -139,6 +145,18 @@ def build_test(values: Values, reader: Reader) -> Machine | None:
         reader.add_error("test", error.args[0])
         return None
     return machine
+
+
+def _torsion(
+    values: Values, engine: Engine | None, lengths: tuple[float, float, float] | None, reader: Reader
+) -> TorsionModel | None:
+    """Return the torsional system of the crankshaft, if one is stated."""
+    if "torsion" not in values:
+        return None
+    from crankwork.description.torsion_build import build_torsion  # noqa: PLC0415 - few files have one
+
+    throws = 1 if engine is None else max(place.throw for place in engine.layout.places) + 1
+    return build_torsion(values["torsion"], reader, throws, lengths[0] if lengths else 0.0)
 
 
 def _with_sizes(values: Values, pi: float, reader: Reader) -> Values:

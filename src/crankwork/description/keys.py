@@ -25,6 +25,7 @@ from crankwork.description.schema import (
     WordOr,
     nearest_name,
 )
+from crankwork.description.torsion_keys import CRANKSHAFT_TORSION
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader, Text, UnitOf, shown
 from crankwork.locale import ErrorMessage, Language
 from crankwork.machine import Document
@@ -768,6 +769,7 @@ MACHINE_FILE = TableSpec("file", {
     "engine": KeySpec(ENGINE),
     "bearings": KeySpec(BEARINGS),
     "balance": KeySpec(BALANCE),
+    "torsion": CRANKSHAFT_TORSION,
     **LOADING,
     "flywheel": KeySpec(FLYWHEEL),
     "test": KeySpec(TEST),

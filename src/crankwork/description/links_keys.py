@@ -39,6 +39,7 @@ from crankwork.description.keys import (
     with_defaults,
 )
 from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, OneForAll, TableSpec
+from crankwork.description.torsion_keys import TORSION
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
 from crankwork.mechanism.driver import LawKind
 from crankwork.shaft.torque_diagram import Shape
@@ -483,4 +484,11 @@ PRESS_FILE = TURNING_FILE._replace(keys={
     **{name: key for name, key in TURNING_FILE.keys.items() if name != "torque"},
     "load": KeySpec(_DIAGRAM, required=True),
     "motor_selection": MOTOR_SELECTION,
+})  # fmt: skip
+
+# discs on elastic shafts, which nothing but stated torques excites
+TORSION_FILE = TURNING_FILE._replace(keys={
+    **{name: TURNING_FILE.keys[name] for name in (*TITLE, "document", "method", "table")},
+    "crank": KeySpec(TableSpec("turning_crank", {"speed": KeySpec(_SPEED)})),
+    "torsion": TORSION,
 })  # fmt: skip

@@ -38,6 +38,7 @@ from crankwork.description.links_keys import (
     ROTOR_FILE,
     STAGES_FILE,
     STARTED_FILE,
+    TORSION_FILE,
     TRANSFER_FILE,
     TURNING_FILE,
 )
@@ -62,7 +63,7 @@ _ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZE
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
 _LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
-_ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE)
+_ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE)
 FILES = (*_ENGINES, *_LOADED, *_LINKAGES, *_ALONE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
@@ -71,6 +72,7 @@ _WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
     ("rotor", (), ROTOR_FILE),
     ("test", (*_OF_LINKAGES, "rod"), TEST_FILE),
     ("stages", (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle"), STAGES_FILE),
+    ("torsion", (*_OF_LINKAGES, "rod", "piston", "cylinder", "engine", "gas", "cycle", "torque", "load"), TORSION_FILE),
 )
 # a name, and numbers of entries where it is a list
 _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
@@ -261,6 +263,10 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
 
 def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | None:
     """Return the machine of values that were read, or None after complaints."""
+    if keys is TORSION_FILE:
+        from crankwork.description.torsion_build import build_torsion_alone  # noqa: PLC0415 - few files load it
+
+        return build_torsion_alone(read_values, reader)
     if keys in (TURNING_FILE, PRESS_FILE):
         # most files do not load it
         from crankwork.description.torque_build import build_turning  # noqa: PLC0415 - loaded where it is needed

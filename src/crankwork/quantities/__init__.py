@@ -544,6 +544,67 @@ _SHAFT = (
     Quantity("power_reserve", "", "Rated power over the power that is needed."),
 )  # fmt: skip
 
+# torsional vibration: discs, shafts, natural modes, dampers
+_TORSION = (
+    Quantity("disc_inertia", "kg*m2", "Moment of inertia of a disc of a torsional system about its shaft."),
+    Quantity("disc_mass", "kg", "Mass of a disc of a torsional system."),
+    Quantity("disc_gyration_radius", "mm", "Radius of gyration of a disc about its shaft."),
+    Quantity("speed_ratio", "", "Speed of a disc over that of the first disc, fixed by gears."),
+    Quantity("teeth", "", "Number of teeth of a gear."),
+    Quantity("equivalent_inertia", "kg*m2", "Moment of inertia of a disc reduced to the speed of the first one."),
+    Quantity("shear_modulus", "MPa", "Shear modulus of a shaft."),
+    Quantity("shaft_length", "mm", "Length of a part of a shaft."),
+    Quantity("shaft_diameter", "mm", "Outer diameter of a part of a shaft."),
+    Quantity("shaft_bore", "mm", "Diameter of the bore of a part of a shaft."),
+    Quantity("shaft_density", "kg/m3", "Density of a shaft whose own mass counts."),
+    Quantity("shaft_inertia", "kg*m2", "Moment of inertia of a shaft about its axis."),
+    Quantity("polar_moment", "cm4", "Polar second moment of area of the section of a shaft."),
+    Quantity("torsional_stiffness", "N*m/rad", "Torque in a shaft over its twist."),
+    Quantity("equivalent_length", "mm",
+             "Length of a shaft of the reference diameter that twists as much, at the speed of the first disc."),
+    Quantity("reference_diameter", "mm", "Diameter of the shaft that equivalent lengths are of."),
+    Quantity("journal_length", "mm", "Length of the main journal between two throws."),
+    Quantity("journal_diameter", "mm", "Diameter of the main journal."),
+    Quantity("journal_bore", "mm", "Diameter of the bore of the main journal."),
+    Quantity("pin_length", "mm", "Length of the crankpin between its webs."),
+    Quantity("pin_diameter", "mm", "Diameter of the crankpin."),
+    Quantity("pin_bore", "mm", "Diameter of the bore of the crankpin."),
+    Quantity("web_thickness", "mm", "Thickness of a web along the shaft."),
+    Quantity("web_width", "mm", "Width of a web across the crank."),
+    Quantity("natural_frequency", "Hz", "Natural frequency of a mode of torsional vibration."),
+    Quantity("angular_frequency", "rad/s", "Angular frequency of a vibration."),
+    Quantity("mode_number", "", "Number of a natural mode, counted without turning as a whole."),
+    Quantity("relative_amplitude", "", "Angle of a disc in a natural mode, over that of the first disc."),
+    Quantity("node_distance", "mm", "Distance of a node from the first end of its shaft."),
+    Quantity("equivalent_node_distance", "mm",
+             "Distance of a node from the first end of its shaft on the equivalent length."),
+    Quantity("damping_ratio", "", "Damping of a mode over its critical damping."),
+    Quantity("damped_frequency", "Hz", "Frequency of free vibration with damping."),
+    Quantity("loss_factor", "", "Part of a stiffness that damps, over the stiffness."),
+    Quantity("disc_torque", "N*m", "Torque of the inertia of a disc at an amplitude of the first of one radian."),
+    Quantity("holzer_sum", "N*m", "Sum of the torques of inertia up to a disc: the torque in the shaft behind it."),
+    Quantity("shaft_twist", "rad", "Twist of a shaft at an amplitude of the first disc of one radian."),
+    Quantity("holzer_remainder", "N*m", "Torque that is left behind the last disc at a trial frequency."),
+    Quantity("critical_speed", "rpm", "Speed at which an order has the frequency of a mode."),
+    Quantity("mode_phase_sum", "",
+             "Length of the sum of the vectors of one order, each with the amplitude of its throw in a mode."),
+    Quantity("excitation_torque", "N*m",
+             "Torque of one order at an amplitude of the first disc of one, work of all throws together."),
+    Quantity("resonance_amplitude", "deg",
+             "Angle of the first disc at resonance with one order, by the damping of the mode."),
+    Quantity("vibration_amplitude", "deg", "Largest angle of a disc from turning at a steady speed."),
+    Quantity("vibration_torque", "N*m", "Largest torque of vibration in a shaft."),
+    Quantity("vibration_stress", "MPa", "Largest shear stress of vibration in a shaft."),
+    Quantity("effective_inertia", "kg*m2", "Inertia on the disc of a damper with the kinetic energy of a mode."),
+    Quantity("damper_inertia_ratio", "", "Inertia of the ring of a damper over the effective inertia of the mode."),
+    Quantity("optimum_tuning", "", "Frequency of the ring on its spring over that of the mode, with the lowest peak."),
+    Quantity("optimum_damping_ratio", "",
+             "Damping of the ring over twice its inertia and the frequency of the mode, with the lowest peak."),
+    Quantity("optimum_damping", "N*m*s/rad", "Damping coefficient of the ring with the lowest peak."),
+    Quantity("optimum_stiffness", "N*m/rad", "Stiffness of the spring of the ring with the lowest peak."),
+    Quantity("least_magnification", "", "Least peak of the amplitude over the static twist, with the best damper."),
+)  # fmt: skip
+
 # bearing loads
 _BEARINGS = (
     # crankpin and big end
@@ -971,8 +1032,8 @@ _CYCLE = (
 # by subject, as a reader wants them: the whole before one cylinder, and last what its cycle was calculated with
 SUBJECTS: dict[str, tuple[Quantity, ...]] = {
     "machine": _MACHINE, "linkage": _LINKAGE, "driver": _DRIVER, "chambers": _CHAMBERS, "circuits": _CIRCUITS,
-    "cylinders": _CYLINDERS, "shaft": _SHAFT, "bearings": _BEARINGS, "balance": _BALANCE, "engine": _ENGINE,
-    "cycle": _CYCLE,
+    "cylinders": _CYLINDERS, "shaft": _SHAFT, "torsion": _TORSION, "bearings": _BEARINGS, "balance": _BALANCE,
+    "engine": _ENGINE, "cycle": _CYCLE,
 }  # fmt: skip
 QUANTITIES: dict[str, Quantity] = {row.key: row for rows in SUBJECTS.values() for row in rows}
 _SUBJECT = {row.key: name for name, rows in SUBJECTS.items() for row in rows}

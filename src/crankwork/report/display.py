@@ -13,7 +13,7 @@ import numpy as np
 from crankwork.locale import decimal, has_text, texts, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
-from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import MOVED, Key, key_of
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
 from crankwork.units import DisplayUnits, from_si, parse_in, use_units
@@ -31,6 +31,8 @@ _OF_ORDERS = {
 }  # fmt: skip
 # what is found in several ways
 _BY_WAY = ("excess_work", "flywheel_inertia", "whole_inertia")
+# what belongs to discs and shafts
+_TORSION = frozenset(row.key for row in SUBJECTS["torsion"])
 # what valves let through per unit of time, of all cylinders or of one
 _DELIVERED = ("inlet_flow", "gas_mass_flow", "free_air_delivery", "isothermal_power")
 # key of the machine file: the quantity or word that it means, where that has another name
@@ -177,6 +179,9 @@ def _part(kind: str, name: str, language: Language) -> str:
         return of_all if name == "all" else translate("drawing.cylinder", language, number=name)
     if kind in ("motor_ratio", "synchronous_speed") and name.isdecimal():
         return translate("drawing.motor_of_speed", language, speed=name)
+    if kind in _TORSION:
+        # a flywheel is a disc there
+        return ", ".join(link_label(part, language) for part in name.split("."))
     method_key = f"report.way_{name}"
     key = method_key if kind in _BY_WAY and has_text(method_key) else f"report.{name}"
     return translate(key, language) if has_text(key) else own_name(kind, name)
