@@ -34,15 +34,15 @@ def pendulum_length(pi: Value, g: Value, T_p: Value) -> Value:
 
 
 @formula("suspension_distance", "khurmi_gupta_2005, ch. 15")
-def suspension_distance(L_p: Value, L_q: Value, D_p: Value) -> Value:
+def suspension_distance(L_s: Value, L_q: Value, D_s: Value) -> Value:
     """Distance of the centre of mass from the first of two edges on which a rod swings."""
-    return D_p * (L_q - D_p) / (L_p + L_q - 2 * D_p)
+    return D_s * (L_q - D_s) / (L_s + L_q - 2 * D_s)
 
 
 @formula("rod_gyration_radius", "khurmi_gupta_2005, ch. 4")
-def pendulum_gyration(h_s: Value, L_p: Value) -> Value:
+def pendulum_gyration(h_s: Value, L_s: Value) -> Value:
     """Radius of gyration of a body from its swinging."""
-    return np.sqrt(h_s * (L_p - h_s))
+    return np.sqrt(h_s * (L_s - h_s))
 
 
 @formula("equivalent_distance", "khurmi_gupta_2005, ch. 15")
