@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "5150a35f8730",
-    "formulas": "7d5fc4380bcd",
-    "quantities": "f4e8e640e4b7",
-    "defaults": "e4b3543d2308",
+    "symbols": "7cf0b2a49e97",
+    "formulas": "73cd323ead68",
+    "quantities": "4466d265c494",
+    "defaults": "56d384bb604c",
 }
 
 
