@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "d7fef5e62daf",
     "formulas": "a8708cfb72b6",
-    "quantities": "3828c110de67",
+    "quantities": "e93978863a92",
     "defaults": "e4df0c3968a6",
 }
 
