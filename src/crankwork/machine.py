@@ -122,6 +122,8 @@ class Cylinder:
     inclination : float or None
         From the upward vertical to the direction of the head, positive towards the crankpin at 90 degrees; None for
         an upright engine. [rad]
+    travels : mapping of str to float
+        Ways of the piston whose crank angles are wanted, from the top dead centre, negative from the bottom. [m]
     """
 
     bore: float
@@ -129,6 +131,7 @@ class Cylinder:
     compression_ratio: float | None = None
     piston_rod_diameter: float = 0.0
     inclination: float | None = None
+    travels: Mapping[str, float] = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True)

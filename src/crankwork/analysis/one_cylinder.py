@@ -97,7 +97,11 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
 
 def with_measured(results: Results) -> Results:
     """Return the results of an engine with what follows from its measured pressure and its test."""
-    gas = results.machine.gas
+    gas, cylinder = results.machine.gas, results.machine.cylinder
+    if cylinder is not None and cylinder.travels:
+        from crankwork.analysis.travels import with_travels  # noqa: PLC0415 - loaded where it is needed
+
+        results = with_travels(results)
     if gas is not None and gas.combustion is not None:
         from crankwork.analysis.combustion import with_combustion  # noqa: PLC0415 - loaded where it is needed
 

@@ -54,7 +54,7 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
     lengths = _lengths(crank, rod, values["cylinder"], reader)
     sizes, cylinder = values["cylinder"], None
     if "bore" in sizes:
-        cylinder = sizes.made(Cylinder, piston_rod_diameter=sizes.si("piston_rod_diameter") or 0.0)
+        cylinder = _cylinder(sizes, lengths, reader)
     _check_clearance(cylinder, lengths, reader)
     check_inertia_ratio(method, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
@@ -103,6 +103,15 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
         test=test_values(values) if "test" in values else None,
         torsion=torsion,
     )
+
+
+def _cylinder(sizes: Values, lengths: tuple[float, float, float] | None, reader: Reader) -> Cylinder:
+    """Return the cylinder, after complaints about ways beyond its stroke."""
+    travels = {name: travel.value for name, travel in sizes["travels"].items() if travel is not None}
+    for name, travel in travels.items():
+        if lengths is not None and abs(travel) > 2 * lengths[0]:
+            reader.add_error(f"cylinder.travels.{name}", ErrorMessage("travel_beyond", stroke=2e3 * lengths[0]))
+    return sizes.made(Cylinder, piston_rod_diameter=sizes.si("piston_rod_diameter") or 0.0, travels=travels)
 
 
 def test_values(values: Values) -> dict[str, tuple[float, ...]]:

@@ -575,6 +575,7 @@ _CYLINDER = TableSpec("cylinder", {
     "compression_ratio": KeySpec(Number(1.001, 100.0), instead_of=("clearance_volume",)),
     "offset": KeySpec(Quantity(("length",), -100.0, 100.0), default="0 mm"),
     "inclination": KeySpec(_ANGLE),
+    "travels": KeySpec(MapOf(Quantity(("length",), -100.0, 100.0), most=40)),
     "piston_rod_diameter": KeySpec(LENGTH),
 })  # fmt: skip
 

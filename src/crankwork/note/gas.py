@@ -449,7 +449,7 @@ SECTIONS = (
     ), lambda material: material.has_piston and material.results.solved.space is not None),
     Section("burning", (
         Head("heat_release"), Text("burning"), At("burning"), Lines("burning"),
-        Shown(("log_indicator", "heat_release", "recorded_cycles"), (Rows("fitted_polytropes", "fitted_polytropes"),)),
+        Shown(("log_indicator", "combustion", "recorded_cycles"), (Rows("fitted_polytropes", "fitted_polytropes"),)),
     ), works("burning")),
     Section("test", (Head("test"), Lines("test", intro="test", source="heywood_1988, ch. 2")), works("test")),
     Section("chambers", (

@@ -85,7 +85,7 @@ _MAIN_FIGURES = frozenset((
     "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan",
     "acceleration_plan", "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison",
     "turning_moment", "driver", "chambers", "speed", "sliders", "balance_polygons", "unbalanced", "stage_indicator",
-    "rod_loads", "pump_flow",
+    "rod_loads", "pump_flow", "log_indicator", "combustion", "recorded_cycles",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
@@ -511,6 +511,8 @@ def _first(lines: list[Line], *, by_part: bool = False) -> Iterator[Line]:
 
 
 _SHOWN: Mapping[str, tuple[str, ...]] = {
+    "log_indicator": ("cylinder_volume", "diagram_pressure"),
+    "combustion": ("gross_heat_rate", "gross_heat", "burnt_fraction"),
     "kinematics": ("piston_displacement", "piston_velocity", "piston_acceleration"),
     "pressure": ("gas_pressure",),
     "indicator": ("gas_pressure",),

@@ -783,6 +783,8 @@ _ENGINE = (
     Quantity("rod_transfer_1", "", "Derivative of the rod angle by the crank angle."),
     Quantity("rod_transfer_2", "", "Second derivative of the rod angle by the crank angle."),
     Quantity("pin_distance", "mm", "Distance of the piston pin from the crankshaft axis along the cylinder axis."),
+    Quantity("travel_down", "deg", "Crank angle at which the piston has gone a way, on its way down."),
+    Quantity("travel_up", "deg", "Crank angle at which the piston is a way from its dead centre, on its way up."),
     Quantity("top_dead_centre_angle", "deg", "Crank angle at which the piston is farthest out."),
     Quantity("bottom_dead_centre_angle", "deg", "Crank angle at which the piston is farthest in."),
     # gas

@@ -357,7 +357,7 @@ def _heat_release(machine: Drawn) -> Drawing:
     panels = [group[-1:] if "wall_heat_rate" not in machine.results.columns else group for group in keys]
     degrees = np.arange(data.start, data.end + 0.25, 0.5)
     columns = machine.results.columns_at(degrees, tuple(itertools.chain(*panels)))
-    return curves(degrees, columns, panels, translate("tables.combustion", machine.language), machine.style)
+    return curves(degrees, columns, panels, figure_title("combustion", machine.language), machine.style)
 
 
 def _orders(machine: Drawn) -> str:
@@ -440,7 +440,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("pressure", pressure, piston("gas_pressure")),
     Diagram("indicator", indicator, piston("gas_pressure")),
     Diagram("log_indicator", log_indicator, has("net_heat")),
-    Construction("heat_release", _heat_release, has("net_heat")),
+    Construction("combustion", _heat_release, has("net_heat")),
     Diagram("recorded_cycles", recorded_cycles, has("recorded_cycles")),
     Diagram("piston_forces", piston_forces, piston("piston_force"), is_of_forces=True),
     _forces("rod_forces", rod_force=SOLID, side_force=DASHED),
