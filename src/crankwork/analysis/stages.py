@@ -17,7 +17,9 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads import stages as formulas
 from crankwork.loads import valves
 from crankwork.loads.gas import piston_area
+from crankwork.loads.indicator import DiagramError
 from crankwork.loads.stages import Stages
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.quantities.key import key_of
 from crankwork.working_cycle.engine_size import bore_and_stroke
@@ -142,7 +144,11 @@ class _Compressor:
             count = self._given("count")
             return int(count.value) or 1, count
         if limit.is_absent:
-            limit = formulas.ratio_of_temperature(hot, self._given("temperature"), self._given("exponent"))
+            cold = self._given("temperature")
+            for index in range(len(self.stages.numbers.get("temperatures", ()))):
+                warm = self._given("temperatures", index)
+                cold = warm if warm.value > cold.value else cold
+            limit = formulas.ratio_of_temperature(hot, cold, self._given("exponent"))
         limit = self._keep("limit_ratio", limit)
         needed = formulas.needed_stages(self._given("discharge"), self._given("suction"), limit)
         needed = self._keep("needed_stages", needed)
@@ -161,6 +167,7 @@ class _Compressor:
                 before = behind - self._given("losses", index - 1)
             low = self._keep(f"suction_pressure{owner}", before)
             behind = self._keep(f"discharge_pressure{owner}", self._behind(index, behind))
+            self._check(index, low.value, behind.value)
             self._keep(f"stage_pressure_ratio{owner}", behind / low)
             cold, hot = self.of("suction_temperature", index), self._given("discharge_temperature")
             exponent = self.of("compression_exponent", index)
@@ -172,6 +179,16 @@ class _Compressor:
             if not cold.is_absent:
                 warm = valves.discharge_temperature(cold, behind, low, exponent) if hot.is_absent or index else hot
                 self._keep(f"discharge_temperature{owner}", warm)
+
+    def _check(self, index: int, low: float, high: float) -> None:
+        """Raise for a stage that does not raise the pressure, or a temperature behind it that no polytrope has."""
+        if not 0 < low < high:
+            place = "discharge" if index + 1 == self.count else "between"
+            raise DiagramError(f"stages.{place}", ErrorMessage("stages_rise", number=index + 1, low=low / 1e6))
+        hot, cold = self._given("discharge_temperature"), self._given("temperature").value
+        if not index and not hot.is_absent and not cold <= hot.value < cold * high / low:
+            message = ErrorMessage("valves_temperature", low=cold, high=cold * high / low)
+            raise DiagramError("stages.discharge_temperature", message)
 
     def _find_entries(self) -> None:
         """Find what is stated of the gas, and of each stage but its pressures."""

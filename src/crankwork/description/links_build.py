@@ -181,7 +181,7 @@ def _crossheads(values: Values, reader: Reader) -> dict[str, float]:
 def _vessels(values: Values, chambers: Mapping[str, Chamber], reader: Reader) -> dict[str, Vessel]:
     """Return the vessels by name; report unknown chambers, and those that pump no liquid."""
     vessels = dict[str, Vessel]()
-    for name, table in values["vessels"].items():
+    for name, table in (values["vessels"] or {}).items():
         for number, chamber in enumerate(table["chambers"], start=1):
             place = f"vessels.{name}.chambers[{number}]"
             known = chambers.get(chamber)

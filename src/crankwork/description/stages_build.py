@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from crankwork.analysis.stages import stage_states
+from crankwork.analysis.stages import stage_states, stage_values
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.drive_build import read_drive
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
+from crankwork.loads.indicator import DiagramError
 from crankwork.loads.stages import Stages
 from crankwork.loads.valves import Valves
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.method import Method
+from crankwork.quantities.key import key_of
 
 _DELIVERIES = ("flow", "free_flow", "mass_flow")
 _SHAPES = ("stroke", "stroke_bore_ratio", "piston_speed")
@@ -35,14 +37,7 @@ def build_compressor(values: Values, reader: Reader) -> Machine | None:
     drive, has_speed = read_drive(values, reader), "crank" in values
     if reader.problems or table is None:
         return None
-    has_flow, has_shape = any(name in table for name in _DELIVERIES), any(name in table for name in _SHAPES)
-    if not has_flow and not ("bore" in table and has_shape):
-        reader.add_error("stages", ErrorMessage("stages_size"))
-    if not has_speed and ("bore" in table or has_shape):
-        reader.add_error("crank.speed", ErrorMessage("missing", advice=('speed = "300 rpm"',)))
-    for name in ("clearance", "volumetric_efficiency"):
-        if has_flow and "bore" in table and name in table:
-            reader.add_error(f"stages.{name}", ErrorMessage("stages_twice"))
+    _check_sizes(table, reader, has_speed=has_speed)
     if "shaft_power" in table and drive.chain is not None:
         reader.add_error("stages.shaft_power", ErrorMessage("same", others=["efficiency"]))
     speed = crank_speed(values["crank"]["speed"], method) if has_speed else 1.0
@@ -52,7 +47,24 @@ def build_compressor(values: Values, reader: Reader) -> Machine | None:
         method=method, stated=stated_numbers(values),
     )  # fmt: skip
     _check(stages, machine, table, reader)
+    if reader.problems:
+        return None
+    for key, share in stage_values(machine, stages).items():
+        if key.startswith("clearance_volumetric_efficiency.") and not 0 < share.value <= 1:
+            reader.add_error("stages", ErrorMessage("stages_filled", number=key_of(key).owner, share=share.value))
     return None if reader.problems else machine
+
+
+def _check_sizes(table: Values, reader: Reader, *, has_speed: bool) -> None:
+    """Report a delivery and sizes that are not enough, or too many."""
+    has_flow, has_shape = any(name in table for name in _DELIVERIES), any(name in table for name in _SHAPES)
+    if not has_flow and not ("bore" in table and has_shape):
+        reader.add_error("stages", ErrorMessage("stages_size"))
+    if not has_speed and ("bore" in table or has_shape):
+        reader.add_error("crank.speed", ErrorMessage("missing", advice=('speed = "300 rpm"',)))
+    for name in ("clearance", "volumetric_efficiency"):
+        if has_flow and "bore" in table and name in table:
+            reader.add_error(f"stages.{name}", ErrorMessage("stages_twice"))
 
 
 def stage_valves(values: Values, method: Method, reader: Reader) -> tuple[Stages | None, Mapping[str, Valves]]:
@@ -97,8 +109,12 @@ def _check(stages: Stages, machine: Machine, table: Values, reader: Reader) -> N
     """Report lists of a wrong length, and pressures that do not rise from stage to stage."""
     if reader.problems:
         return
-    states = stage_states(machine, stages)
-    for names, wanted in ((_BY_STAGE, len(states)), (_BY_COOLER, len(states) - 1)):
+    try:
+        states = len(stage_states(machine, stages))
+    except DiagramError as error:
+        reader.add_error(error.key, error.args[0])
+        return
+    for names, wanted in ((_BY_STAGE, states), (_BY_COOLER, states - 1)):
         for name in names:
             count = (
                 len(table[name])
@@ -114,8 +130,3 @@ def _check(stages: Stages, machine: Machine, table: Values, reader: Reader) -> N
         reader.add_error("stages.exponent", ErrorMessage("stages_isothermal"))
     if len(set(stages.numbers.get("exponent", ()))) > 1 and "between" not in table:
         reader.add_error("stages.exponent", ErrorMessage("stages_best"))
-    for number, state in enumerate(states, start=1):
-        low, high = state["suction"].value, state["discharge"].value
-        if not low < high and not reader.problems:
-            place = "discharge" if number == len(states) else "between"
-            reader.add_error(f"stages.{place}", ErrorMessage("stages_rise", number=number, low=low / 1e6))

@@ -14,6 +14,7 @@ from crankwork.analysis.gas_chambers import indicators
 from crankwork.analysis.stages import stage_diagrams
 from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
+from crankwork.quantities.key import key_of
 from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
 from crankwork.show.canvas import WIDER, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, true_slices
@@ -303,12 +304,21 @@ def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array |
     return paper.drawing(translate(f"figures.{title}", style.language), style.language)
 
 
+def _named(machine: Drawn, key: str) -> str:
+    """Return symbol and name of what a part has."""
+    quantity = quantity_of(key)
+    return (
+        f"{math_symbol(quantity.symbol(machine.language))} – {machine.named(key_of(key).quantity).partition(' – ')[2]}"
+    )
+
+
 def rod_loads(machine: Drawn, slider: str) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the loads of a piston rod and of its crosshead pin over the cycle, the reversed load of the pin shaded."""
     degrees, keys = machine.reached.degrees, ("crosshead_load", "piston_rod_load", "rod_load")
     values = [machine.shown(key, machine.reached.columns[f"{key}.{slider}"]) for key in keys]
     duration = machine.value("reversal_duration", machine.results.summary[f"reversal_duration.{slider}"])
-    rows = [Row(machine.named(key), style) for key, style in zip(keys, STYLES, strict=False)]
+    names = [_named(machine, f"{key}.{slider}") for key in keys]
+    rows = [Row(name, style) for name, style in zip(names, STYLES, strict=False)]
     rows.append(Row(translate("drawing.reversed", machine.language, duration=duration), SOLID, 0.0))
     paper, box = sheet(HEIGHT, rows)
     graph = over_cycle(paper, box, limits(*values), machine.cycle, machine.language)
@@ -328,7 +338,7 @@ def pump_flow(machine: Drawn, vessel: str) -> tuple[Canvas, Mapping[str, Graph]]
     """Return the flow at a vessel over the cycle with its mean."""
     degrees, key = machine.reached.degrees, f"vessel_flow.{vessel}"
     mean, values = machine.results.summary[f"mean_flow.{vessel}"], machine.shown(key, machine.reached.columns[key])
-    rows = [Row(machine.named("vessel_flow"), SOLID), Row(machine.stated("mean_flow", mean), DASH_DOT, 0.45)]
+    rows = [Row(_named(machine, key), SOLID), Row(machine.stated("mean_flow", mean), DASH_DOT, 0.45)]
     paper, box = sheet(HEIGHT, rows)
     graph = over_cycle(paper, box, limits(values, np.zeros(1)), machine.cycle, machine.language)
     graph.curve(key, degrees, values)
