@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "70d260a251d7",
-    "formulas": "da529404b087",
-    "quantities": "1da127d92a40",
-    "defaults": "f32646a48fcf",
+    "symbols": "022c5f1a6469",
+    "formulas": "14f9122a8fd5",
+    "quantities": "e39cdf828ebc",
+    "defaults": "7a382e4ce1a5",
 }
 
 

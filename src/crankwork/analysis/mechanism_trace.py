@@ -123,12 +123,13 @@ def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) 
         yield f"slider_velocity.{name}", rates.slider_velocity(value.position_1, w)
         yield f"slider_acceleration.{name}", rates.slider_acceleration(value.position_2, w, value.position_1, eps)
         turning = motion.frames[carrier[name]].angle_1 if name in carrier else absent("link_angle_1")
-        on_crank = isinstance(driver, Crank) and carrier.get(name) == driver.link
-        if on_crank or not turning.is_absent:
+        # the crank has no transfer function of its own
+        crank = driver if isinstance(driver, Crank) and carrier.get(name) == driver.link else None
+        if crank is not None or not turning.is_absent:
             velocity = rates.slider_velocity(value.position_1, w).named(f"slider_velocity.{name}")
             carried = rates.link_angular_velocity(turning, w)
-            if on_crank:
-                carried = w if driver.direction > 0 else -w
+            if crank is not None:
+                carried = w if crank.direction > 0 else -w
             carried = carried.named(f"link_angular_velocity.{carrier[name]}")
             yield f"coriolis_acceleration.{name}", rates.coriolis_acceleration(carried, velocity)
     yield from transmissions(machine.mechanism, motion)
