@@ -26,6 +26,9 @@ ROOT = Path(__file__).parents[2]
 ENGINES = {"kinematics.csv", "forces.csv"}
 TABLES = dict.fromkeys(("engine", "slider-crank", "compressor", "whole-engine"), ENGINES)
 TABLES["turning-moment"] = {"turning.csv", "energy_extremes.csv"}
+TABLES["balancing"] = {"rotor.csv", "planes.csv"}
+_WALKING = ("jansen", "klann", "hoecken", "chebyshev", "watt-straight-line")
+TABLES |= {name: {"points.csv", "links.csv"} for name in _WALKING}
 LINKAGES = {"dynamics.csv", "points.csv", "links.csv"}
 
 
@@ -60,8 +63,8 @@ def test_every_template_is_written_checked_and_computed(crankwork, names) -> Non
         found["run"] = (answer.code, answer.err, answer.out.rstrip().endswith(f" {out}")) == (0, "", True)
         marks = [mark for mark in ".," if re.search(rf"\d[{mark}]\d", answer.out)]
         found["decimal mark"] = marks == ["." if language == "en" else ","]
-        # a shaft with torques on it has nothing that could be drawn in motion
-        drawing = set() if name == "turning-moment" else {"machine.svg"}
+        # a shaft with torques or masses on it has nothing that could be drawn in motion
+        drawing = set() if name in ("turning-moment", "balancing") else {"machine.svg"}
         files = {".crankwork.json", "summary.json", "tables", "tables.xlsx"} | drawing
         found["files"] = {one.name for one in out.iterdir()} == files
         found["tables"] = TABLES.get(name, LINKAGES) <= {one.name for one in (out / "tables").iterdir()}

@@ -28,6 +28,7 @@ from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import TEXTBOOK
 from each import for_each
+from machine_texts import analysed
 
 INLINE_PINS = {
     "I1": (0,),
@@ -105,6 +106,58 @@ class TestCustomaryLayouts:
         layout = _layout(INLINE_PINS["I5_12453"], pitch=0.094)
         moments = [one.moment.largest for one in layout_factors(layout, pitch=0.094)]
         assert moments == pytest.approx([moment for _, moment in INLINE_FACTORS["I5_12453"]], abs=5.1e-7)
+
+
+FILE = """
+format = 2
+crank = { radius = "50 mm", speed = "600 rpm" }
+rod = { length = "200 mm", mass = "0 kg", small_end_share = 0.5 }
+piston.mass = "1 kg"
+cylinder.bore = "80 mm"
+[engine]
+"""
+ORDERS = {
+    "I4_flat": [1, 3, 4, 2], "I5_12453": [1, 2, 4, 5, 3], "I6_120": [1, 5, 3, 6, 2, 4],
+    "I8_90": [1, 4, 2, 3, 8, 5, 7, 6],
+}  # fmt: skip
+
+
+@pytest.mark.elsewhere
+class TestLayoutsFromFiles:
+    """The same factors, and largest over single force, of engines that machine files describe."""
+
+    @for_each("name", INLINE_PINS)
+    def test_inline(self, name: str) -> None:
+        pins = INLINE_PINS[name]
+        throws = ", ".join(f'"{pin} deg"' for pin in pins)
+        order = ORDERS.get(name, [*range(1, len(pins) + 1)])
+        results = analysed(f"""{FILE}
+            layout = "inline"
+            cylinders = {len(pins)}
+            firing_order = {order}
+            throws = [{throws}]
+            spacing = "100 mm"
+            uneven = true
+        """)
+        for q, (force, moment) in zip((1, 2, 4, 6), INLINE_FACTORS[name], strict=True):
+            assert results.value(f"force_factor.{q}") == pytest.approx(force, abs=5.1e-7)
+            if len(pins) > 1:
+                assert results.value(f"moment_factor.{q}") == pytest.approx(moment, abs=5.1e-7)
+
+    @for_each("angle", V2_FACTORS)
+    def test_v2_with_one_crankpin(self, angle: int) -> None:
+        more = f'layout = "V"\ncylinders = 2\nbank_angle = "{angle} deg"\nfiring_order = [1, 2]\nuneven = true'
+        results = analysed(f"{FILE}{more}")
+        for q, extremes in zip((1, 2), V2_FACTORS[angle], strict=True):
+            single = results.value(f"order_inertia_force.{q}")
+            ends = [results.value(f"free_force{end}.reciprocating.{q}") / single for end in ("_min", "")]
+            assert ends == pytest.approx(extremes, abs=5.1e-7)
+
+    @for_each("count", RADIAL_FACTORS)
+    def test_radial(self, count: int) -> None:
+        results = analysed(f'{FILE}layout = "radial"\ncylinders = {count}')
+        for q, factor in zip((1, 2), RADIAL_FACTORS[count], strict=True):
+            assert results.value(f"force_factor.{q}") == pytest.approx(factor, abs=1e-13)
 
 
 class TestBevan:

@@ -283,8 +283,8 @@ def test_watts_lever_passes_through_its_middle():
     """With both levers level the coupler stands upright, its middle at half height."""
     results = crankwork.analyse(crankwork.Description(crankwork.template("watt-straight-line")))
     assert (results.value("point_x.P", 0), results.value("point_y.P", 0)) == pytest.approx((0.1, 0.04), abs=1e-12)
-    near = [results.value("point_x.P", angle) for angle in (0, 5)]
-    assert near[1] == pytest.approx(near[0], abs=1e-4)
+    # over 40 degrees of the lever it leaves the straight line by a hundredth of the way
+    assert results["path_width.P"] < 0.01 * results["path_height.P"]
 
 
 @pytest.mark.elsewhere

@@ -123,6 +123,7 @@ def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) 
         yield f"slider_velocity.{name}", rates.slider_velocity(value.position_1, w)
         yield f"slider_acceleration.{name}", rates.slider_acceleration(value.position_2, w, value.position_1, eps)
         turning = motion.frames[carrier[name]].angle_1 if name in carrier else absent("link_angle_1")
+        # the crank has no transfer function of its own
         crank = driver if isinstance(driver, Crank) and carrier.get(name) == driver.link else None
         if crank is not None or not turning.is_absent:
             velocity = rates.slider_velocity(value.position_1, w).named(f"slider_velocity.{name}")

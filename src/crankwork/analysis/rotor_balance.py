@@ -66,7 +66,7 @@ class _Shaft:
         self.share = (stated / axles).named("balanced_share.axle") if rotor.coupled > 1 else self.whole
         for index, mass in enumerate(rotor.masses):
             for key in ("mass", "radius", "moment", "angle", "position", "reciprocating"):
-                if (stated := getattr(mass, key)) is not None and (stated or key != "reciprocating"):
+                if (stated := getattr(mass, key)) or (stated is not None and key != "reciprocating"):
                     path = f"rotor.masses[{index + 1}].{key}"
                     self._keep(f"plane_{key}.{mass.name}", given(f"plane_{key}.{mass.name}", stated, path))
         self.reference = absent("plane_position")
@@ -308,11 +308,6 @@ def _sum(vectors: Iterable[Vector]) -> Vector:
     # written out in one line, as books do
     x, y = (functools.reduce(operator.add, parts) for parts in zip(*vectors, strict=True))
     return x, y
-
-
-def _minus(vectors: Iterable[Vector]) -> Vector:
-    x, y = _sum(vectors)
-    return -x, -y
 
 
 def _times(share: TracedValue, vector: Vector) -> Vector:

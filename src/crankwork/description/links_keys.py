@@ -432,7 +432,7 @@ _SECTOR = TableSpec("sector", {
 _PLANE_MASS = TableSpec("rotor_mass", {
     "name": KeySpec(NAME),
     "mass": KeySpec(_OWN_MASS, instead_of=("moment", "sector")),
-    "reciprocating": KeySpec(_OWN_MASS, default="0 kg", instead_of=("moment", "sector")),
+    "reciprocating": KeySpec(_OWN_MASS, instead_of=("moment", "sector"), only={"mass": ()}),
     "radius": KeySpec(_LENGTH.kind, instead_of=("moment", "sector")),
     "moment": KeySpec(Quantity(("mass_moment",), 0.0, 1e6), instead_of=("mass", "reciprocating", "radius", "sector")),
     "sector": KeySpec(_SECTOR, instead_of=("mass", "reciprocating", "radius", "moment")),

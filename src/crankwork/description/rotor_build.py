@@ -62,7 +62,8 @@ def _rotor(table: Values, reader: Reader) -> Rotor:
             reader.add_error(f"{path}.sector.inner_radius", ErrorMessage("rotor_ring"))
         if table["kind"] == "reciprocating" and "reciprocating" in entry:
             reader.add_error(f"{path}.reciprocating", ErrorMessage("rotor_mass"))
-        masses.append(entry.made(PlaneMass, name=name, sector=ring))
+        pistons = entry.si("reciprocating") or 0.0
+        masses.append(entry.made(PlaneMass, name=name, sector=ring, reciprocating=pistons))
     rotor = Rotor(
         tuple(masses),
         table["kind"],
