@@ -38,7 +38,7 @@ def dimension_lines(
         start, end = points[length.start], points[length.end]
         if np.hypot(*_along(length, start, end)) < _SHORTEST:
             continue
-        p, q = min(_choices(length, start, end, busy), key=lambda ends: _crowding(*ends, busy))
+        p, q = min(_choices(length, start, end, busy), key=lambda ends: _crowding(ends[0], ends[1], busy))
         busy = np.vstack([busy, p + _PLACES * (q - p)])
         items += _drawn(length, (start, end), (p, q))
     return items, busy
