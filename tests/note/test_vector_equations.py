@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from crankwork.analysis.vector_polygons import worked_position
 from crankwork.locale import LANGUAGES, texts
 from crankwork.note.document import Equation, Figure, Heading, Paragraph, Table
 from each import for_each
@@ -120,3 +121,16 @@ def test_a_title_may_be_stated_in_each_language():
     assert titles["en"] == "Press, motion from geometry"
     assert titles["ru"].startswith("Кулисный пресс")
     assert titles["vi"].startswith("Máy dập")
+
+
+def test_a_slider_that_drives_begins_the_vector_equations():
+    """Its law gives its velocity along the guide; the reactions follow from moments, and its force closes the plan."""
+    found = note("driven-slider", "ru", full=False, figures=True)
+    printed_equations = [block.printed.text for block in blocks(found, Equation) if block.printed is not None]
+    assert "v_A = v_B + v_AB; v_A = v_O + v_AO" in printed_equations
+    assert any("F_q = 0" in text for text in printed_equations)
+    results_at = results("driven-slider").columns_at(np.array([worked_position(results("driven-slider"))]))
+    speed = abs(results_at["driver_velocity"][0])
+    rows = {row[0].content: row for row in tables(found)["compared_velocities"].rows}
+    assert number(rows["v_B"][4]) == pytest.approx(speed, rel=1e-3)
+    assert abs(number(rows["v_B"][6])) < 1.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import partial
 
 from crankwork.analysis.force_plans import (
@@ -88,28 +88,42 @@ def equilibrium(material: Material) -> Iterator[Block]:
         key = "drawing.links" if len(plan.links) > 1 else "drawing.link"
         links = ", ".join(str(numbers[link]) for link in plan.links)
         yield Paragraph((f"{capital(translate(key, words.language, links=links))}:",))
-        lines, texts, parts, written = list[Row](), list[str](), list[Box](), list[str]()
-        for equation in moments:
-            if equation.link in plan.links:
-                left, text = _moments(equation, numbers, words)
-                lines += left
-                texts.append(text)
-        by_moments = {
-            equation.unknown for equation in moments if equation.link in plan.links and equation.kind == "guide"
-        }
-        for force in plan.forces:
-            name = _name(force, numbers, words)
-            # the group before acts on this one as this one on it, the other way
-            sign = "−" if force.name in solved else "+"
-            for part, known in _parts(
-                force, name, words, is_known=force.is_load or force.name in {*solved, *by_moments}
-            ):
-                parts += [*([Sign(sign)] if parts or sign == "−" else []), vector_box(part, known, words)]
-            written.append(f"{sign} {name}")
+        lines, texts, known = list[Row](), list[str](), set(solved)
+        for equation in (equation for equation in moments if equation.link in plan.links):
+            left, text = _moments(equation, numbers, words)
+            lines += left
+            texts.append(text)
+            if equation.kind == "guide":
+                # on a block its guide is known then, and the force of its pin follows
+                on_block = [force for force in plan.forces if force.is_load and force.name == equation.unknown]
+                on_block.append(PolygonForce("guide", equation.unknown, 0.0, 0.0))
+                on_block += [force for force in plan.forces
+                             if force.kind == "pin" and force.name not in {*solved, equation.point}]  # fmt: skip
+                block = _vector_sum(on_block, {equation.unknown}, (), numbers, words)
+                lines.append(block[0])
+                known |= {force.name for force in on_block}
+        forces, text = _vector_sum(plan.forces, known, solved, numbers, words)
+        lines.append(forces)
+        texts.append(text)
         solved |= {force.name for force in plan.forces}
-        lines.append(row(*parts, EQUALS, Digits("0")))
-        texts.append(f"{' '.join(written).removeprefix('+ ')} = 0")
         yield Equation(ValueLine("", 0.0), printed=PrintedEquation(tuple(lines), "; ".join(texts)))
+
+
+def _vector_sum(
+    forces: Iterable[PolygonForce],
+    known: Collection[str],
+    solved: Collection[str],
+    numbers: dict[str, int],
+    words: Words,
+) -> tuple[Row, str]:
+    """Return the equation of a plan of forces, and it as text; what the group before gave acts the other way."""
+    parts, written = list[Box](), list[str]()
+    for force in forces:
+        name, sign = _name(force, numbers, words), "−" if force.name in solved else "+"
+        for part, lines in _parts(force, name, words, is_known=force.is_load or force.name in known):
+            parts += [*([Sign(sign)] if parts or sign == "−" else []), vector_box(part, lines, words)]
+        written.append(f"{sign} {name}")
+    return row(*parts, EQUALS, Digits("0")), f"{' '.join(written).removeprefix('+ ')} = 0"
 
 
 def _parts(force: PolygonForce, name: str, words: Words, *, is_known: bool) -> Iterator[tuple[str, int]]:
