@@ -46,7 +46,8 @@ _OF_LINKAGES = frozenset((
     "driver_force_max", "driver_force_min",
     "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",
     "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
-    "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
+    "bearing_load_max", "mean_bearing_load", "natural_frequency", "vibration_stress",
+    "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
 ))  # fmt: skip
 # digits of differences, and what of a residual is rounding
 _DIGITS, _ROUNDING = 3, 1e-9
@@ -58,7 +59,7 @@ _NUMBERS = (
     "slider_stroke", "joint_force_max", "slider_velocity_max", "slider_acceleration_max",
     "crankpin_load_max", "excess_work", "flywheel_inertia",
     "flywheel_inertia.exact", "speed_fluctuation", "standard_motor_power", "piston_velocity_max",
-    "piston_acceleration_max", "piston_acceleration_min",
+    "piston_acceleration_max", "piston_acceleration_min", "natural_frequency", "vibration_stress",
 )  # fmt: skip
 # what another makes needless: a flywheel may follow from another excess work than that of the shaft
 _SAME = {
@@ -194,7 +195,10 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
         return [kind] if kind in summary else []
     # of a slider that goes both ways the larger by size counts
     kinds = (kind, f"{kind.removesuffix('_max')}_min") if kind.startswith("slider_") else (kind,)
-    is_part = kind.endswith(("_max", "_stroke"))
+    if kind == "natural_frequency":
+        # of the lowest modes
+        return [key for key in (f"{kind}.{mode}" for mode in (1, 2)) if key in summary]
+    is_part = kind.endswith(("_max", "_stroke", "_stress"))
     parts = [key for key in summary if is_part and key_of(key).owner and key_of(key).quantity in kinds]
     return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
 

@@ -17,7 +17,20 @@ from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import links_of
 from crankwork.note.document import Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Lines, Section, Text, When, driven, full, has, lacks, machine_has, school
+from crankwork.note.parts import (
+    Head,
+    Lines,
+    Section,
+    Text,
+    When,
+    driven,
+    full,
+    has,
+    has_torques,
+    lacks,
+    machine_has,
+    school,
+)
 from crankwork.note.symbols import subscript
 from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
@@ -491,7 +504,7 @@ SECTIONS = (
         When(lambda material: material.results.solved.space is None, (Lines("gas", intro="volumes"),)),
     ), has("piston_displacement")),
     Section("method", (Head("method"), _how), has("piston_displacement")),
-    Section("task", (Head("task"), _shaft), machine_has("turning")),
+    Section("task", (Head("task"), _shaft), has_torques),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),
     Section("task", (Head("task"), _task, Text("linkage_computed"), _method, _SHEETS), machine_has("linkage")),

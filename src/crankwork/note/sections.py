@@ -25,6 +25,7 @@ from crankwork.note import (
     quality,
     structure,
     torque,
+    torsion,
     transient,
 )
 from crankwork.note.captions import printed_date
@@ -65,24 +66,25 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 _LINKAGE = (
     "summary", "task", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics", "quality",
     "chambers", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor", "flywheel",
-    "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+    "law_of_motion", "torsion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources",
+    "appendix",
 )  # fmt: skip
 # sections of a linkage that the main course leaves out
 _FULL = ("bearings",)
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
         "summary", "data", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin",
-        "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "mains", "balance", "evenness", "motor", "torsion", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
         "summary", "data", "nomenclature", "cycle", "indicator", "displacement", "velocity", "acceleration",
         "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness",
-        "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "motor", "torsion", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     "en": (
         "summary", "data", "method", "nomenclature", "cycle", "indicator", "kinematics", "dynamics", "torque",
-        "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
+        "crankpin", "mains", "balance", "evenness", "motor", "torsion", "comparison", "checks", "conclusion", "sources",
         "appendix",
     ),
 }  # fmt: skip
@@ -90,7 +92,7 @@ _CRANK_GEAR: dict[str, tuple[str, ...]] = {
 SECTIONS: tuple[Section, ...] = (
     *data.SECTIONS, *structure.SECTIONS, *motion.SECTIONS, *quality.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
     *torque.SECTIONS, *friction.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS,
-    *transient.SECTIONS, *closing.SECTIONS,
+    *torsion.SECTIONS, *transient.SECTIONS, *closing.SECTIONS,
 )  # fmt: skip
 
 
@@ -175,7 +177,7 @@ def _titles(material: Material) -> tuple[str, str]:
         is_engine = space is not None and space.work > 0 and "bore" in material.summary
         return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
     if material.machine.turning is not None:
-        return words.title("turning"), "turning_subtitle"
+        return words.title("turning" if material.machine.turning.diagrams else "torsion"), "turning_subtitle"
     return words.title("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
 
 
