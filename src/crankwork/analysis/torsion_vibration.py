@@ -179,7 +179,7 @@ def damper_values(results: Results, system: Vibrating) -> dict[str, TracedValue]
                          results.trace.get("crank_radius"))  # fmt: skip
     operands = bare.elastic
     for name, damper in model.dampers.items():
-        function = DampedDisc(NaturalModes(bare.structure, model.modes), bare.names.index(damper.on))
+        function = DampedDisc(NaturalModes(bare.structure, model.modes), bare.names.index(damper.on), damper.mode)
         w, inertia = function.of([operand.value for operand in operands])
         if not math.isfinite(w):
             continue

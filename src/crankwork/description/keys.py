@@ -138,8 +138,8 @@ _TRANSIENT = TableSpec("transient", {
 _ENGINE_SECTIONS = (
     "summary", "preface", "data", "method", "cycle", "indicator", "burning", "test", "kinematics", "displacement",
     "velocity", "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar",
-    "unrolled", "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion",
-    "nomenclature", "sources", "appendix",
+    "unrolled", "big_end", "wear", "mains", "balance", "evenness", "motor", "torsion", "comparison", "checks",
+    "conclusion", "nomenclature", "sources", "appendix",
 )  # fmt: skip
 _LINKAGE_SECTIONS = (
     "summary", "task", "structure", "kinematics", "quality", "chambers", "stages", "forces", "balance", "reduction",
@@ -150,7 +150,7 @@ _TRANSFER_SECTIONS = (
     "summary", "task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "nomenclature", "sources",
 )  # fmt: skip
 _TURNING_SECTIONS = (
-    "summary", "task", "moments", "energy", "motor", "flywheel", "law_of_motion", "comparison", "checks",
+    "summary", "task", "moments", "energy", "motor", "flywheel", "law_of_motion", "torsion", "comparison", "checks",
     "conclusion", "nomenclature", "sources",
 )  # fmt: skip
 _STAGES_SECTIONS = ("summary", "task", "stages", "comparison", "checks", "conclusion", "nomenclature", "sources")

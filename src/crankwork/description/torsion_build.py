@@ -66,7 +66,8 @@ def build_torsion(values: Values, reader: Reader, throws: int = 0, radius: float
     discs = {name: item.made(Disc) for name, item in values["discs"].items()}
     gears = {name: _gear(item) for name, item in values["gears"].items()}
     dampers = {
-        name: item.made(Damper, stiffness=item.si("stiffness") or 0.0) for name, item in values["dampers"].items()
+        name: item.made(Damper, stiffness=item.si("stiffness") or 0.0, mode=int(item["mode"]))
+        for name, item in values["dampers"].items()
     }
     torques = tuple(item.made(ExcitingTorque) for item in values["torques"] if item is not None)
     speeds = tuple(item.value for item in values["speeds"] if item is not None)

@@ -82,6 +82,7 @@ _DAMPER = TableSpec("damper", {
     "inertia": KeySpec(_INERTIA._replace(low=1e-15), required=True),
     "damping": KeySpec(_DAMPING, default="0 N*m*s/rad"),
     "stiffness": KeySpec(_STIFFNESS),
+    "mode": KeySpec(Number(1, 50, whole=True), default=1),
 })  # fmt: skip
 
 _EXCITATION = TableSpec("exciting_torque", {

@@ -48,7 +48,8 @@ _OF_LINKAGES = frozenset((
     "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
     "stage_power", "stage_saving", "heat_removed", "overall_isothermal_efficiency", "crosshead_load_tension",
     "crosshead_load_compression", "mean_flow", "flow_pulsation", "vessel_volume_change", "vessel_saving",
-    "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
+    "bearing_load_max", "mean_bearing_load", "natural_frequency", "vibration_stress",
+    "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
 ))  # fmt: skip
 # digits of differences, and what of a residual is rounding
 _DIGITS, _ROUNDING = 3, 1e-9
@@ -60,7 +61,7 @@ _NUMBERS = (
     "slider_stroke", "joint_force_max", "slider_velocity_max", "slider_acceleration_max",
     "crankpin_load_max", "excess_work", "flywheel_inertia",
     "flywheel_inertia.exact", "speed_fluctuation", "standard_motor_power", "piston_velocity_max",
-    "piston_acceleration_max", "piston_acceleration_min",
+    "piston_acceleration_max", "piston_acceleration_min", "natural_frequency", "vibration_stress",
 )  # fmt: skip
 # what another makes needless: a flywheel may follow from another excess work than that of the shaft
 _SAME = {
@@ -192,7 +193,10 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
         return [kind] if kind in summary else []
     # of a slider that goes both ways the larger by size counts
     kinds = (kind, f"{kind.removesuffix('_max')}_min") if kind.startswith("slider_") else (kind,)
-    is_part = kind.endswith(("_max", "_stroke"))
+    if kind == "natural_frequency":
+        # of the lowest modes
+        return [key for key in (f"{kind}.{mode}" for mode in (1, 2)) if key in summary]
+    is_part = kind.endswith(("_max", "_stroke", "_stress"))
     parts = [key for key in summary if is_part and key_of(key).owner and key_of(key).quantity in kinds]
     return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
 

@@ -28,6 +28,7 @@ from crankwork.note.parts import (
     every,
     full,
     has,
+    has_torques,
     lacks,
     machine_has,
     school,
@@ -534,7 +535,7 @@ SECTIONS = (
         When(lambda material: material.results.solved.space is None, (Lines("gas", intro="volumes"),)),
     ), has("piston_displacement")),
     Section("method", (Head("method"), _how), has("piston_displacement")),
-    Section("task", (Head("task"), _shaft), machine_has("turning")),
+    Section("task", (Head("task"), _shaft), has_torques),
     Section("task", (
         Head("task"),
         Text("rotor_task", {"count": lambda material: str(len(material.results.listings["planes"].names))}),

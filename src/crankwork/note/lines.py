@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
@@ -168,6 +169,14 @@ WORST_ANGLES = ("transmission_angle_min", "transmission_angle_max", "pressure_an
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
 
+_TORSION = (
+    "disc_inertia", "polar_moment", "equivalent_length", "torsional_stiffness", "shaft_inertia", "equivalent_inertia",
+    "equivalent_node_distance", "node_distance",
+)  # fmt: skip
+_DAMPERS = (
+    "damper_inertia_ratio", "optimum_tuning", "optimum_damping_ratio", "optimum_damping", "optimum_stiffness",
+    "least_magnification",
+)  # fmt: skip
 _STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
 _POWER_OF_SHAFT = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
 _OF_STROKE = ("unbalanced_force_along", "unbalanced_force_across", "unbalanced_force", "unbalanced_couple")
@@ -196,7 +205,16 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
         groups = iter((_of_test(results),))
     else:
         groups = _of_links(results, degrees)
+    groups = itertools.chain(groups, _of_torsion(results))
     return tuple(group for group in groups if group.lines)
+
+
+def _of_torsion(results: Results) -> Iterator[Group]:
+    """Yield the lines of discs and shafts, and of their dampers."""
+    if results.machine.torsion is not None:
+        new = _LineFilter(results, 0.0)
+        yield Group("torsion", new.lines(_TORSION))
+        yield Group("torsional_dampers", new.lines(_DAMPERS))
 
 
 def _of_piston(results: Results, angle: float, force_angle: float | None) -> Iterator[Group]:

@@ -42,6 +42,9 @@ _CONSTRUCTED = (
 )  # fmt: skip
 # what a note shows the formula of when it is not to show all
 ESSENTIAL = frozenset((
+    "disc_inertia", "polar_moment", "equivalent_length", "torsional_stiffness", "shaft_inertia", "equivalent_inertia",
+    "equivalent_node_distance", "damper_inertia_ratio", "optimum_tuning", "optimum_damping_ratio", "optimum_damping",
+    "optimum_stiffness", "least_magnification",
     "mobility", "bearing_force_x", "bearing_force_y", "small_end_load", "big_end_inertia_force", "piston_pin_force",
     "rod_centre_distance", "rod_length", "rod_ratio", "rod_small_end_mass", "rod_big_end_mass", "diagram_pressure",
     "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",

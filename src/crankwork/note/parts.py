@@ -203,6 +203,11 @@ def machine_has(part: str) -> Condition:
     return lambda material: bool(getattr(material.machine, part))
 
 
+def has_torques(material: Material) -> bool:
+    """Return whether torques on a shaft are given."""
+    return material.machine.turning is not None and bool(material.machine.turning.diagrams)
+
+
 def school(*names: str) -> Condition:
     """Return the condition that the order of sections is that of one of some schools."""
     return lambda material: material.order in names

@@ -25,6 +25,7 @@ from crankwork.note import (
     quality,
     structure,
     torque,
+    torsion,
     transient,
 )
 from crankwork.note.captions import printed_date
@@ -65,34 +66,34 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 _LINKAGE = (
     "summary", "task", "test", "structure", "planes", "static", "dynamic", "driving", "moments", "energy", "kinematics",
     "quality", "chambers", "stages", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics",
-    "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources",
-    "appendix",
+    "motor", "flywheel", "law_of_motion", "torsion", "transient", "comparison", "checks", "conclusion", "nomenclature",
+    "sources", "appendix",
 )  # fmt: skip
 # sections of a linkage that the main course leaves out
 _FULL = ("bearings",)
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
         "summary", "data", "nomenclature", "cycle", "indicator", "burning", "test", "kinematics", "dynamics", "torque",
-        "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
+        "crankpin", "mains", "balance", "evenness", "motor", "torsion", "comparison", "checks", "conclusion", "sources",
         "appendix",
     ),
     # after the data the twelve sections that such notes have, then what conclusions refer to
     "vi": (
         "summary", "data", "nomenclature", "cycle", "indicator", "burning", "test", "displacement", "velocity",
         "acceleration", "inertia", "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear",
-        "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources", "appendix",
+        "mains", "balance", "evenness", "motor", "torsion", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     "en": (
         "summary", "data", "method", "nomenclature", "cycle", "indicator", "burning", "test", "kinematics", "dynamics",
-        "torque", "crankpin", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "sources",
-        "appendix",
+        "torque", "crankpin", "mains", "balance", "evenness", "motor", "torsion", "comparison", "checks", "conclusion",
+        "sources", "appendix",
     ),
 }  # fmt: skip
 # every section of a note; of several with one name the first whose condition holds
 SECTIONS: tuple[Section, ...] = (
     *data.SECTIONS, *structure.SECTIONS, *motion.SECTIONS, *quality.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
     *torque.SECTIONS, *friction.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS,
-    *transient.SECTIONS, *closing.SECTIONS,
+    *torsion.SECTIONS, *transient.SECTIONS, *closing.SECTIONS,
 )  # fmt: skip
 
 
@@ -181,7 +182,7 @@ def _titles(material: Material) -> tuple[str, str]:
     if material.machine.test is not None:
         return words.title("test"), "test_subtitle"
     if material.machine.turning is not None:
-        return words.title("turning"), "turning_subtitle"
+        return words.title("turning" if material.machine.turning.diagrams else "torsion"), "turning_subtitle"
     if material.machine.rotor is not None:
         return words.title("rotor"), "rotor_subtitle"
     if material.machine.linkage is None and material.machine.stages is not None:

@@ -30,6 +30,7 @@ from crankwork.note.parts import (
     every,
     full,
     has,
+    has_torques,
     lacks,
     machine_has,
     school,
@@ -212,7 +213,7 @@ SECTIONS = (
             Lines("stretches"), At("turning_moments"), Lines("turning_moments"), Text("mean_of_torque"),
         )),
         Lines("shaft_power"),
-    ), machine_has("turning")),
+    ), has_torques),
     Section("reduction", (
         Head("reduction"), Text("reduction", _CITED), At("reduction"), Lines("reduction"),
         _reduced_by_links,

@@ -69,6 +69,7 @@ from crankwork.report.torque import (
     total_torque,
     turning_moment,
 )
+from crankwork.report.torsion import campbell, natural_modes, torsional_response
 from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import Graph
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing, Style
@@ -466,6 +467,9 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(curved_loci(machine)))),
     Diagram("balance_polygons", balance_polygons, has_polygons),
     Curves("unbalanced", _unbalanced, "subjects.balance"),
+    Construction("torsional_modes", natural_modes, has("natural_modes")),
+    Construction("campbell", campbell, has("critical_speeds")),
+    Construction("torsional_response", torsional_response, has("torsional_response")),
     Construction("transient", _transient, every(_drawn, has("transient"))),
     Construction("speed", speed_curve, _speed),
     Construction("wittenbauer", wittenbauer, lambda machine: (_drawn(machine) or _engine(machine))

@@ -75,6 +75,7 @@ class Damper(NamedTuple):
     inertia: float  # [kg m2]
     damping: float = 0.0  # [N m s/rad]
     stiffness: float = 0.0  # [N m/rad]
+    mode: int = 1  # Number of the mode that it is made for
 
 
 class ExcitingTorque(NamedTuple):

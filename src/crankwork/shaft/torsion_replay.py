@@ -173,19 +173,23 @@ class DampedDisc:
 
     natural: NaturalModes
     disc: int
+    mode: int
 
     def __call__(self, _: Array, series: Array) -> tuple[float, float]:
-        """Return both of the lowest mode in which the disc turns."""
+        """Return both. `series`: coefficients of the numbers."""
         return self.of([float(column[0, 0]) for column in series])
 
     def of(self, numbers: Sequence[float]) -> tuple[float, float]:
-        """Return both of the lowest mode in which the disc turns, from the numbers of the system."""
+        """Return both from the numbers of the system; no numbers where there is no such mode or the disc stands."""
         modes = self.natural.system(numbers).modes()
-        for w, shape in zip(modes.frequency[modes.rigid :], modes.shape[modes.rigid :], strict=True):
-            if abs(shape[self.disc]) > 1e-6 * np.max(np.abs(shape)):
-                # shapes have a modal inertia of one
-                return float(w), float(1 / shape[self.disc] ** 2)
-        return math.nan, math.nan
+        index = modes.rigid + self.mode - 1
+        if index >= modes.frequency.size:
+            return math.nan, math.nan
+        shape = modes.shape[index]
+        if abs(shape[self.disc]) <= 1e-6 * np.max(np.abs(shape)):
+            return math.nan, math.nan
+        # shapes have a modal inertia of one
+        return float(modes.frequency[index]), float(1 / shape[self.disc] ** 2)
 
 
 def damped_modes(system: TorsionalSystem) -> Complex:
