@@ -1,4 +1,4 @@
-"""The quantities of an engine: motion, gas and forces of a cylinder, its cycle, its test; see the table of `quantities`."""
+"""The quantities of an engine: motion, gas and forces of a cylinder, its cycle, its test."""
 
 from __future__ import annotations
 
