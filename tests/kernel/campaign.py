@@ -112,7 +112,7 @@ class Machine:
         every = [one for one in numbers(description) if not named or one[0] in named]
         draw.shuffle(every)
         moved = {key: (number.now or 0) * (1 + away * (1 + index)) for index, (key, number) in enumerate(every)}
-        moved = moved if away else {}
+        self.moved = moved = moved if away else {}
         for key, number in every:
             self.fields[key] = number
             stated = moved.get(key, number.now or 0)
@@ -213,7 +213,7 @@ def _worst(
             left_out += 1
             continue
         try:
-            results = machine.results(dict(zip(machine.fields, design.tolist(), strict=True)))
+            results = machine.results(machine.moved | dict(zip(machine.fields, design.tolist(), strict=True)))
         except CrankworkError:
             continue
         if _from_dead_position(results.summary) < _NEAR_DEAD:
@@ -229,7 +229,7 @@ def _worst(
                 size = max(size, _size_of(results.trace[key], results))
                 apart = max(apart - _behind_a_jump(results.trace[key]), 0.0)
             apart /= size
-            if kind == "angle" and "ratio" not in key and not apart <= LIMITS[kind]:
+            if kind in ("angle", "time") and "ratio" not in key and not apart <= LIMITS[kind]:
                 apart = _missed(key, value, results)
             counted[kind] += 1
             if not apart <= worst.get(kind, (-1.0, ""))[0]:
@@ -301,13 +301,12 @@ def _size(key: str, summary: Mapping[str, float]) -> float:
 
 
 def _missed(key: str, angle: float, results: Results) -> float:
-    """Return how far the largest of a column is from what stands at another angle, where it may be as large."""
+    """Return how far the largest of a column is from its value at another angle or time."""
     word, dot, name = key.partition(".")
-    word = word.removesuffix("_angle")
+    place = angle if word.endswith("_time") else math.degrees(angle)
+    word = word.removesuffix("_angle").removesuffix("_time")
     end, extreme = word.rpartition("_")[0], f"{word}{dot}{name}"
-    return abs(results.value(f"{end}{dot}{name}", math.degrees(angle)) - results.summary[extreme]) / _size(
-        extreme, results.summary
-    )
+    return abs(results.value(f"{end}{dot}{name}", place) - results.summary[extreme]) / _size(extreme, results.summary)
 
 
 def told(*what: object) -> None:
