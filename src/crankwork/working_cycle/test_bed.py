@@ -79,26 +79,14 @@ def double_acting_power(  # noqa: PLR0913 - one argument per symbol
 
 @formula("indicated_power", _TEXT)
 def power_of_mean_pressure(p_ind: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
-    """Indicated power of all cylinders by the mean pressure."""
+    """Power of all cylinders by a mean pressure."""
     return p_ind * V_engine * f_cycle / (2 * pi)
 
 
 @formula("indicated_mean_pressure", _TEXT)
 def mean_pressure_of_power(N_ind: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
-    """Mean pressure that gives an indicated power."""
+    """Mean pressure that gives a power of all cylinders."""
     return 2 * pi * N_ind / (V_engine * f_cycle)
-
-
-@formula("effective_mean_pressure", _TEXT)
-def brake_mean_pressure(N_e: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
-    """Mean pressure that gives a brake power."""
-    return 2 * pi * N_e / (V_engine * f_cycle)
-
-
-@formula("effective_power", _TEXT)
-def power_of_brake_mean_pressure(p_e: Value, V_engine: Value, f_cycle: Value, pi: Value) -> Value:
-    """Brake power by the mean pressure."""
-    return p_e * V_engine * f_cycle / (2 * pi)
 
 
 @formula("indicated_power", _AIR)
@@ -115,7 +103,7 @@ def chen_flynn_loss(a_loss: Value, b_loss: Value, S_pm: Value, c_loss: Value, k_
 
 @formula("mechanical_efficiency", _TEXT)
 def efficiency_of_powers(N_e: Value, N_ind: Value) -> Value:
-    """Brake power over indicated power."""
+    """Power that is given over power that is taken."""
     return N_e / N_ind
 
 
@@ -144,27 +132,9 @@ def fuel_of_volume(V_fuel: Value, rho_fuel: Value) -> Value:
 
 
 @formula("effective_fuel_consumption", _TEXT)
-def brake_consumption(G_f: Value, N_e: Value) -> Value:
-    """Fuel per brake work."""
+def consumption_of_power(G_f: Value, N_e: Value) -> Value:
+    """Fuel per work."""
     return G_f / N_e
-
-
-@formula("indicated_fuel_consumption", _TEXT)
-def consumption_of_indicated(G_f: Value, N_ind: Value) -> Value:
-    """Fuel per indicated work."""
-    return G_f / N_ind
-
-
-@formula("effective_efficiency", _TEXT)
-def brake_thermal_efficiency(N_e: Value, Q_0: Value) -> Value:
-    """Brake power over the heat of the fuel."""
-    return N_e / Q_0
-
-
-@formula("indicated_efficiency", _TEXT)
-def indicated_thermal_efficiency(N_ind: Value, Q_0: Value) -> Value:
-    """Indicated power over the heat of the fuel."""
-    return N_ind / Q_0
 
 
 @formula("gas_mass_flow", _TEXT)
@@ -203,17 +173,27 @@ def speed_droop(w_idle: Value, w: Value) -> Value:
     return (w_idle - w) / w
 
 
-# in the order in which what is known gives what is not; a quantity that is known already is not worked again
+# in the order in which what is known gives what is not: what is known already is not worked again
 _RULES = (
     piston_area, swept_volume, engine_size.displacement, mean_piston_speed, working_cycle_rate,
     arm_of_drum, arm_of_circumference, brake_torque, power_of_torque, morse_power,
     card_mean_pressure, double_acting_power, power_of_mean_pressure, chen_flynn_loss,
-    engine_size.effective_mean_pressure, power_of_brake_mean_pressure, indicated_of_brake, brake_of_indicated,
-    mean_pressure_of_power, brake_mean_pressure, efficiency_of_powers, mechanical_loss_power,
-    torque_of_power, fuel_of_volume, engine_size.fuel_rate, brake_consumption, consumption_of_indicated,
-    engine_size.heat_supplied, brake_thermal_efficiency, indicated_thermal_efficiency, charge_density, orifice_flow,
-    measured_volumetric_efficiency, air_fuel_ratio, heat_of_coolant, heat_of_exhaust, speed_droop,
+    engine_size.effective_mean_pressure, (power_of_mean_pressure, "effective"), indicated_of_brake, brake_of_indicated,
+    mean_pressure_of_power, (mean_pressure_of_power, "effective"), efficiency_of_powers, mechanical_loss_power,
+    torque_of_power, fuel_of_volume, engine_size.fuel_rate, consumption_of_power, (consumption_of_power, "indicated"),
+    engine_size.heat_supplied, (efficiency_of_powers, "effective"), (efficiency_of_powers, "indicated"), charge_density,
+    orifice_flow, measured_volumetric_efficiency, air_fuel_ratio, heat_of_coolant, heat_of_exhaust, speed_droop,
 )  # fmt: skip
+# of formulas that are used for several quantities: what their result and their arguments then are
+_OTHERS: dict[tuple[str, str], dict[str, str]] = {
+    ("power_of_mean_pressure", "effective"): {"": "effective_power", "p_ind": "effective_mean_pressure"},
+    ("mean_pressure_of_power", "effective"): {"": "effective_mean_pressure", "N_ind": "effective_power"},
+    ("consumption_of_power", "indicated"): {"": "indicated_fuel_consumption", "N_e": "indicated_power"},
+    ("efficiency_of_powers", "effective"): {"": "effective_efficiency", "N_ind": "heat_supplied"},
+    ("efficiency_of_powers", "indicated"): {
+        "": "indicated_efficiency", "N_e": "indicated_power", "N_ind": "heat_supplied",
+    },
+}  # fmt: skip
 
 
 def work_test(worked: Calculation, pi: float) -> None:
@@ -232,10 +212,13 @@ def work_test(worked: Calculation, pi: float) -> None:
     while len(worked.found) != before:
         before = len(worked.found)
         for rule in _RULES:
-            entry = FORMULAS[rule.__name__]
-            taken = (name for name in entry.arguments if name != "pi")
-            if entry.quantity not in worked.known and all(ARGUMENTS[name].quantity in worked.known for name in taken):
-                worked(rule, **({"pi": pi} if "pi" in entry.arguments else {}))
+            function, use = rule if isinstance(rule, tuple) else (rule, "")
+            entry, other = FORMULAS[function.__name__], _OTHERS.get((function.__name__, use), {})
+            quantity = other.get("", entry.quantity)
+            taken = {name: other.get(name, ARGUMENTS[name].quantity) for name in entry.arguments if name != "pi"}
+            if quantity not in worked.known and all(key in worked.known for key in taken.values()):
+                operands = {name: worked[key] for name, key in taken.items()}
+                worked(function, quantity, **operands, **({"pi": pi} if "pi" in entry.arguments else {}))
     if not worked.found:
         raise CrankworkError(ErrorMessage("test_nothing"))
     if "heat_supplied" in worked.found and "effective_power" in worked.known:
