@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "b169b47b4d72",
     "formulas": "f4f3fb096069",
-    "quantities": "79e173aceebb",
+    "quantities": "d42593ac969c",
     "defaults": "6fd2a73f23c2",
 }
 
