@@ -45,7 +45,7 @@ def changed(name: str, old: str, new: str) -> str:
         (f'{TWO}heat_capacity = "1005 J/(kg*K)"', "stages.heat_capacity", "gas_constant"),
         (f'{TWO}water_rise = "20 K"', "stages.water_rise", "heat_capacity"),
         (f"{TWO}ratio_limit = 4", "stages.ratio_limit", "count"),
-        (STAGES.replace("exponent = 1.3", 'temperature = "300 K"\ndischarge_temperature = "290 K"') + 'flow = "1 m3/s"',
+        (TWO.replace("exponent = 1.3", 'temperature = "300 K"\ndischarge_temperature = "290 K"'),
          "stages.discharge_temperature", ""),
         (changed("two-stage-compressor", '"low_crank"]', '"low_end"]'), "stages.chambers[1][2]", "low_crank"),
         (changed("two-stage-compressor", '"low_crank"]', '"low_head"]'), "stages.chambers[1][1]", "low_head"),

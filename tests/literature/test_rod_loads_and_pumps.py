@@ -228,6 +228,31 @@ def test_subramanya_16_41() -> None:
     assert pump(pipe, 26.9982331852)["diagram_pressure_min.water"] / 9810 == pytest.approx(2.0, rel=1e-9)
 
 
+def test_heads_in_the_cylinder() -> None:
+    """At both ends of the suction stroke and in its middle: acceleration, friction, acceleration again."""
+    found = pump('suction_pipe = { length = "5 m", diameter = "50 mm", friction = 0.03 }')
+    speed = 20 * math.pi / 30
+    head, velocity = 5 / 9.81 * 9 * 0.15 * speed**2, 9 * 0.15 * speed
+    lost = 0.03 * 5 / 0.05 * velocity**2 / (2 * 9.81)
+    assert found.value("pressure_head.water", 1e-9) == pytest.approx(7.5 - head, rel=1e-7)
+    assert found.value("pressure_head.water", 90.0) == pytest.approx(7.5 - lost, rel=1e-11)
+    assert found.value("pressure_head.water", 180.0) == pytest.approx(7.5 + head, rel=1e-7)
+    assert found.value("pressure_head.water", 270.0) == pytest.approx(25.0, rel=1e-11)
+
+
+def test_flow_into_a_vessel() -> None:
+    """R. K. Bansal, chapter 20: A r w (sin - 2/pi) of a double-acting, with 1/pi of a single-acting plunger."""
+    scale = math.pi / 4 * 0.08**2 * 0.1 * 2 * math.pi
+    for chambers, mean in (({"a": ("plunger_1", -1)}, 1 / math.pi), (
+            {"a": ("plunger_1", -1), "b": ("plunger_1", 1)}, 2 / math.pi)):  # fmt: skip
+        names = ", ".join(f'"{name}"' for name in chambers)
+        found = plungers(chambers, f"[vessels.air]\nchambers = [{names}]")
+        for angle in (30.0, 90.0, 120.0):
+            # the plunger delivers in the second half of the turn
+            expected = scale * (math.sin(math.radians(angle)) - mean)
+            assert found.value("vessel_inflow.air", 180.0 + angle) == pytest.approx(expected, rel=1e-10)
+
+
 def test_friction_head() -> None:
     """At the middle of the stroke, after Darcy."""
     found = pump('discharge_pipe = { length = "40 m", diameter = "100 mm", friction = 0.03 }')

@@ -14,12 +14,13 @@ from crankwork.formula.traced_value import Piecewise, ProcedureValue, TracedValu
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.chamber import face_names
 from crankwork.loads.gas import piston_area
+from crankwork.loads.valves import pressure_head
 from crankwork.machine import Machine
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work
 
 _TEXT = "subramanya_2005, ch. 16"
-COLUMNS = ("chamber_flow", "vessel_flow", "pipe_power")
+COLUMNS = ("pressure_head", "chamber_flow", "vessel_flow", "vessel_inflow", "pipe_power")
 
 
 @formula("chamber_flow", _TEXT)
@@ -41,15 +42,24 @@ def vessel_saving(P_even: Value, P_pipe: Value) -> Value:
 
 
 def flow_columns(solved: PreparedLinkage, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the flow of every chamber at a vessel, of all of them, and the power of friction without the vessel."""
+    """Return heads in chambers, flows of chambers, at vessels and into them, and the power of friction without them."""
     machine, columns = solved.machine, dict[str, TracedValue]()
     for name in dict.fromkeys(name for vessel in machine.vessels.values() for name in vessel.chambers):
         columns[f"chamber_flow.{name}"] = total("", list(_of_faces(solved, name, trace)))
+    for name, chamber in machine.chambers.items():
+        if chamber.valves is not None and "gravity" in chamber.valves.linked:
+            density = given("liquid_density", chamber.valves.density or 0.0, f"chambers.{name}.valves.density")
+            pressure = trace[f"diagram_pressure.{name}"]
+            columns[f"pressure_head.{name}"] = pressure_head(pressure, density, chamber.valves.linked["gravity"])
     for name, vessel in machine.vessels.items():
         flows = {f"chamber_flow.{item}": columns[f"chamber_flow.{item}"] for item in vessel.chambers}
         over = CycleInterpolant(flows, CrankGrid.from_degrees, machine.cycle)
         flow = total("", [_one_way(over, key, vessel.side == "suction") for key in flows]).named(f"vessel_flow.{name}")
         columns[flow.key] = flow
+        mean = CycleInterpolant({flow.key: flow}, CrankGrid.from_degrees, machine.cycle).mean(
+            flow.key, f"mean_flow.{name}"
+        )
+        columns[f"vessel_inflow.{name}"] = mean - flow if vessel.side == "suction" else flow - mean
         if vessel.pipe is not None:
             columns[f"pipe_power.{name}"] = _friction(machine, name, flow)
     return {key: value.named(key) for key, value in columns.items()}

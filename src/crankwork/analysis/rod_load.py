@@ -73,12 +73,15 @@ def rod_load_values(machine: Machine, over: CycleInterpolant) -> dict[str, Trace
         for kind in COLUMNS:
             ends = (-extremes[f"{kind}_min.{slider}"], extremes[f"{kind}_max.{slider}"])
             # a force towards the shaft presses
-            tension, compression = ends if _towards_shaft(machine, over, slider) > 0 else ends[::-1]
-            values |= {f"{kind}_tension.{slider}": tension, f"{kind}_compression.{slider}": compression}
+            words = (
+                ("tension", "compression") if _towards_shaft(machine, over, slider) > 0 else ("compression", "tension")
+            )
+            loads = (value.named(f"{kind}_{word}.{slider}") for word, value in zip(words, ends, strict=True))
+            values |= {value.key: value for value in loads}
         gas = (values[f"rod_load_{word}.{slider}"] for word in ("tension", "compression"))
-        values[f"mean_rod_load.{slider}"] = mean_rod_load(*gas)
+        values[f"mean_rod_load.{slider}"] = mean_rod_load(*gas).named(f"mean_rod_load.{slider}")
         values |= reversal_values(keys[-1], over, extremes, slider)
-    return {key: value.named(key) for key, value in values.items()}
+    return values
 
 
 def _towards_shaft(machine: Machine, over: CycleInterpolant, slider: str) -> float:

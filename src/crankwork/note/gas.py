@@ -466,7 +466,7 @@ SECTIONS = (
         )),
         When(machine_has("vessels"), (
             Text("vessels"), At("vessels"), Lines("vessels"),
-            Places("flows", ("chamber_flow", "vessel_flow"), "flows"), Shown(("pump_flow",)),
+            Places("flows", ("chamber_flow", "vessel_flow", "vessel_inflow"), "flows"), Shown(("pump_flow",)),
         )),
     ), machine_has("chambers")),
     Section("stages", (

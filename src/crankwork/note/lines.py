@@ -47,8 +47,10 @@ _ROD_LOADS = (
     "piston_rod_load", "crosshead_load", "rod_load_tension", "rod_load_compression", "mean_rod_load",
     "piston_rod_load_tension", "piston_rod_load_compression", "crosshead_load_tension", "crosshead_load_compression",
 )  # fmt: skip
-_FLOWS = ("chamber_flow", "vessel_flow", "mean_flow", "flow_pulsation", "flow_ratio", "vessel_volume_change",
-          "even_pipe_power", "vessel_saving")  # fmt: skip
+_FLOWS = (
+    "chamber_flow", "vessel_flow", "mean_flow", "vessel_inflow", "flow_pulsation", "flow_ratio", "vessel_volume_change",
+    "even_pipe_power", "vessel_saving",
+)  # fmt: skip
 WHEEL_SIZES = (
     "flywheel_mass", "rim_speed", "rim_stress", "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width",
 )  # fmt: skip

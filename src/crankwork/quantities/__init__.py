@@ -380,6 +380,7 @@ _CHAMBERS = (
     Quantity("separation_speed", "rpm", "Speed of the crank at which the liquid in a pipe separates."),
     Quantity("chamber_flow", "l/s", "Volume that a chamber takes in per unit of time, negative as it gives out."),
     Quantity("vessel_flow", "l/s", "Volume that chambers take from a vessel, or give to it, per unit of time."),
+    Quantity("vessel_inflow", "l/s", "Volume that a vessel takes in per unit of time beyond what it gives out."),
     Quantity("pipe_power", "kW", "Power that the friction of a pipe takes, whose flow no vessel evens."),
     Quantity("mean_flow", "l/s", "Mean of the flow at a vessel."),
     Quantity("flow_pulsation", "", "Largest less least flow over the mean one."),
