@@ -227,9 +227,9 @@ def test_compression_and_expansion_have_exponents_of_their_own():
 def test_values_by_the_piston_area_are_those_of_the_tables():
     found = note("spark-engine", "vi")
     worked_out = next(one for one in printed(found) if one.startswith("P_1 = P_kt + P_j = "))
-    assert worked_out.endswith("N; P_1/F_p = 2,51353 MPa")
+    assert worked_out.endswith(" = 3,25336 + (−0,739836) = 2,51353 MPa")
     assert next(row[3] for row in tables(found)["along"].rows if row[0] == "390") == "2,513528"
-    assert not [one for one in printed(note("spark-engine", "ru")) if "/F_п = " in one.partition("; ")[2]]
+    assert not [one for one in printed(note("spark-engine", "ru")) if one.startswith("P = ") and "МПа" in one]
 
 
 @for_each(

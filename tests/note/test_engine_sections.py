@@ -17,7 +17,9 @@ from crankwork.note.per_area import by_area, with_area
 from crankwork.quantities import LANGUAGES
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area
+from crankwork.report.drawing import dimensioned, film_of
 from crankwork.report.figures import drawings
+from crankwork.show.scene import Polyline, Text
 from each import failing, for_each
 from notes import blocks, nomenclature, note, results, tables
 
@@ -159,3 +161,30 @@ def test_degrees_celsius_stand_among_the_units(language):
     (found,) = (row for row in rows if row[0] and row[2] == number(490.6, language))
     assert found[3] == "°C"
     assert not re.search("°C", found[0])
+
+
+# --- the drawing on the first page
+
+
+@for_each(("name", "bore", "stroke"), [("engine", 85.0, 90.0), (FOUR, 78.0, 78.0)])
+def test_the_dimensions_are_as_long_as_bore_and_stroke(name, bore, stroke):
+    film = film_of(results(name))
+    still, plain = dimensioned(film, "D", "S"), film.still()
+    added = still.items[len(plain.items) :]
+    assert [item.text for item in added if isinstance(item, Text)] == ["D", "S"]
+    spans = [
+        np.abs(np.diff(item.points, axis=0))[0] for item in added if isinstance(item, Polyline) and not item.closed
+    ]
+    along, up = spans[4], spans[5]
+    assert along[1] == up[0] == 0
+    assert along[0] / up[1] == pytest.approx(bore / stroke, rel=2e-3)
+    everything = np.vstack([item.points for item in added if isinstance(item, Polyline)])
+    assert np.all(everything > 0)
+    assert np.all(everything < (still.width, still.height))
+
+
+def test_a_cylinder_that_leans_has_no_dimensions():
+    film = film_of(results("v8-diesel"))
+    leaning = film._replace(parts=tuple(moving for moving in film.parts if not moving.name.startswith("row")))
+    assert len(dimensioned(film, "D", "S").items) > len(film.still().items)
+    assert len(dimensioned(leaning, "D", "S").items) == len(leaning.still().items)

@@ -24,7 +24,7 @@ from crankwork.quantities.key import key_of
 from crankwork.report.assumptions import plain_assumptions
 from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.display import display_key, displayed, key_unit, label
-from crankwork.report.drawing import film_of
+from crankwork.report.drawing import dimensioned, film_of
 from crankwork.report.look import kind_of
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import warning_text
@@ -70,6 +70,8 @@ _SAME = {
 }  # fmt: skip
 # rows of the first table, and sentences of a conclusion that needs no table
 _GLANCE, _FEWEST = 10, 3
+# bore and stroke
+_BOTH = 2
 # the machine and its main results stand on one page [mm]
 _HIGHEST = 85.0
 
@@ -216,21 +218,27 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         if lengths:
             texts = "; ".join(f"{length.start}{length.end} {length.text}" for length in lengths)
             sentences += (" ", *words.sentence("machine_lengths", unit=words.unit("point_x"), lengths=texts))
-        yield Paragraph((*sentences, " ", *words.sentence("see_table", tables=Reference("t:glance"))))
+        yield Paragraph((*sentences, " ", *words.sentence("main_results", table=Reference("t:glance"))))
         sizes = ("bore", "stroke", "crank_radius", "rod_length") if material.has_piston else ()
         known = [
             f"{words.symbol(key)} = {words.amount(summary[key], 'mm', digits=4)}" for key in sizes if key in summary
         ]
         caption = ", ".join((f"{title}: {known[0]}", *known[1:])) if known else title
         caption = words.phrase("machine_measured", unit=words.unit("point_x")) if lengths else caption
-        yield Figure(film.still(), caption, film.about or title, label="f:machine", high=_HIGHEST)
+        own = [
+            f"/{{{words.symbol(key)}}} {words.shown(key, summary[key], digits=4)}"
+            for key in sizes[:2]
+            if key in summary
+        ]
+        still = dimensioned(film, *own) if len(own) == _BOTH else film.still()
+        yield Figure(still, caption, film.about or title, label="f:machine", high=_HIGHEST)
     # a linkage has a joint there
     numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
     keys = [key for kind in numbers for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     keys = [key for key in summary if key != "speed"] if material.machine.rotor is not None else keys
     if film is None:
-        yield words.paragraph("see_table", tables=Reference("t:glance"))
+        yield words.paragraph("main_results", table=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.unmet:
         yield Paragraph((capital(warning_text(results, words.language)),))

@@ -31,7 +31,20 @@ from crankwork.report.sketch import Sketch, tints
 from crankwork.show.animation import Animation, Part, part
 from crankwork.show.canvas import WIDER, marked
 from crankwork.show.formats import FILMS, FORMATS, Progress
-from crankwork.show.scene import SMALL, TEXT, ChartBox, Drawing, Item, Pen, Text, flow_rows, line, rectangle, text_width
+from crankwork.show.scene import (
+    SMALL,
+    TEXT,
+    ChartBox,
+    Drawing,
+    Item,
+    Pen,
+    Polyline,
+    Text,
+    flow_rows,
+    line,
+    rectangle,
+    text_width,
+)
 from crankwork.show.theme import Theme
 
 _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 10.5, 4.5, 80.0
@@ -39,6 +52,8 @@ _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 10.5, 4.5, 80.0
 _TINTS, _TINT = 6, 4.0
 # about a view that is looked at alone [mm]
 _AROUND = 4.0
+# how far a piston that stands upright is moved aside [mm]
+_UPRIGHT = 1e-6
 # a still shows the crank at this angle
 _STILL = 60.0
 _TURN = 360.0
@@ -111,6 +126,34 @@ def film_of(
     except GeometryError:
         # a linkage that cannot turn fully has a notice that says so
         return None
+
+
+def dimensioned(film: Animation, bore: str, stroke: str) -> Drawing:
+    """Return a film at rest with the dimensions of its first cylinder, where that stands upright; each as text."""
+    still, of_name = film.still(), {moving.name: moving for moving in film.parts}
+    piston = of_name.get("row.1.piston.1") or of_name.get("side.piston.1")
+    if piston is None or np.ptp(piston.shift[:, 0]) > _UPRIGHT:
+        return still
+    points = np.vstack([item.points for item in piston.at(film.rest) if isinstance(item, Polyline)])
+    # the gas fills the bore, in which the piston has some play
+    gas = of_name.get(piston.name.replace("piston", "gas"), piston).at(film.rest)
+    walls = np.vstack([item.points[:, :1] for item in gas if isinstance(item, Polyline)] or [points[:, :1]])
+    left, right = float(np.min(walls)), float(np.max(walls))
+    crowns = float(np.max(points[:, 1])) + piston.shift[:, 1] - piston.shift[film.rest, 1]
+    low, high = float(np.min(crowns)), float(np.max(crowns))
+    over, column = still.height - _FOOT / 2, left - _FOOT
+    items: list[Item] = [line((x, high + _AROUND), (x, over + 1)) for x in (left, right)]
+    items += [line((column - 1, y), (left - 1, y)) for y in (low, high)]
+    for (x, y), (along, up) in (((left, over), (right - left, 0.0)), ((column, low), (0.0, high - low))):
+        items.append(line((x, y), (x + along, y + up)))
+        for base, size in ((0.0, 2.5), (1.0, -2.5)):
+            tip, direction = np.array([x + base * along, y + base * up]), np.array([along, up]) / math.hypot(along, up)
+            side = 0.5 * np.array([-direction[1], direction[0]])
+            foot = tip + size * direction
+            items.append(Polyline(np.array([tip, foot + side, foot - side]), Pen(0.0), closed=True, fill=0.0))
+    items.append(Text(((left + right) / 2, over + 1), bore, anchor="middle"))
+    items.append(Text((column - 1, (low + high) / 2), stroke, anchor="middle", angle=90.0))
+    return still._replace(items=(*still.items, *items))
 
 
 @for_readers
