@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from crankwork.analysis import Array
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import in_order
-from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.document import Block, Citation, Equation, Reference, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -112,18 +112,19 @@ def _over_positions(caption: str, label: str, *keys: str) -> Callable[[Material]
 def _reduced_by_links(material: Material) -> Iterator[Block]:
     """Yield the reduced inertia at the positions, with the terms of its links where there is room for them."""
     own = quantity_columns(material, material.nonzero("reduced_inertia", "reduced_inertia_1"), material.columns)
-    of_links = _of_bodies(material, CrankGrid.from_degrees(material.positions))
+    of_links = _of_bodies(material, material.positions)
     yield from tabulated(
         material, "reduced", [*(of_links if 1 < len(of_links) <= _MOST_LINKS else ()), *own], "reduced"
     )
 
 
-def _of_bodies(material: Material, grid: CrankGrid | None = None) -> list[Column]:
+def _of_bodies(material: Material, degrees: Array | None = None) -> list[Column]:
     """Return the terms of the bodies in the reduced inertia."""
     results = material.results
     traced_values = in_order([results.trace["reduced_inertia"]])
     known = {traced.key: traced for traced in traced_values if traced.key.startswith("reduced_inertia.")}
-    rows = Program(known)(grid or results.grid)
+    grid = results.grid if degrees is None else type(results.grid).from_degrees(degrees)
+    rows = Program(known)(grid)
     return quantity_columns(material, [key for key in known if rows[key].any()], rows)
 
 
