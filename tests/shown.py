@@ -29,7 +29,7 @@ FILES = MACHINES | EXAMPLES | TEMPLATES
 # together they have every kind of figure, and are quick to analyse
 FEW = (
     "petrol-four", "spark-engine", "atkinson", "andrews-squeezer", "excavator-boom", "overhung-slide",
-    "punching-machine", "press",
+    "punching-machine", "press", "vibrating-crankshaft",
 )  # fmt: skip
 REST = tuple(name for name in EXAMPLES | TEMPLATES if name not in FEW)
 
