@@ -17,8 +17,8 @@ from rules import every_formula
 
 PINNED = {
     "symbols": "7cf0b2a49e97",
-    "formulas": "73cd323ead68",
-    "quantities": "4466d265c494",
+    "formulas": "fe48d7c95bd1",
+    "quantities": "b47e6a265db4",
     "defaults": "56d384bb604c",
 }
 
