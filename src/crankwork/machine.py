@@ -476,6 +476,15 @@ class Machine:
         return self.linkage is not None or self.lengths is not None
 
     @property
+    def alone(self) -> str:
+        """What is calculated without a mechanism: torsion, turning, rotor, stages or test; empty with one."""
+        if self.moves or self.transfer is not None:
+            return ""
+        if self.turning is not None:
+            return "turning" if self.turning.diagrams else "torsion"
+        return next(name for name in ("rotor", "stages", "test") if getattr(self, name) is not None)
+
+    @property
     def inclination(self) -> float:
         """Angle from the upward vertical to the head of cylinder 1, stated or that of an upright layout. [rad]"""
         if self.cylinder is not None and self.cylinder.inclination is not None:

@@ -154,22 +154,8 @@ def _analysed(
     machine: Machine, grid: CrankGrid | None, method: Method | None, progress: Callable[[float], None] | None
 ) -> Results:
     # imported by kind of machine, since loading the other packages would take longer than the analysis
-    if machine.turning is not None and not machine.turning.diagrams:
-        from crankwork.analysis.torsion import shaft_alone  # noqa: PLC0415 - few machines vibrate
-
-        return shaft_alone(machine, grid)
-    if machine.turning is not None:
-        from crankwork.analysis.given_torques import analyse_turning  # noqa: PLC0415 - loaded where it is needed
-
-        return analyse_turning(machine, machine.turning, grid)
-    if machine.stages is not None and machine.linkage is None:
-        from crankwork.analysis.stages import analyse_stages  # noqa: PLC0415 - loaded where it is needed
-
-        return analyse_stages(machine, machine.stages, grid)
-    if machine.rotor is not None:
-        from crankwork.analysis.rotor_balance import analyse_rotor  # noqa: PLC0415 - loaded where it is needed
-
-        return analyse_rotor(machine, machine.rotor, grid)
+    if machine.alone:
+        return _without_mechanism(machine, grid)
     if machine.transfer is not None:
         from crankwork.analysis.given_motion import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
@@ -178,11 +164,30 @@ def _analysed(
         from crankwork.analysis.mechanism import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_linkage(machine, grid, progress)
-    if machine.test is not None and machine.lengths is None:
-        from crankwork.analysis.test_bed import analyse_test  # noqa: PLC0415 - loaded where it is needed
-
-        return analyse_test(machine)
     return with_measured(analyse_engine(machine, grid, method=method))
+
+
+def _without_mechanism(machine: Machine, grid: CrankGrid | None) -> Results:
+    """Return the results of what stands in the place of a mechanism; its modules are loaded where they are needed."""
+    if machine.turning is not None and machine.turning.diagrams:
+        from crankwork.analysis.given_torques import analyse_turning  # noqa: PLC0415
+
+        return analyse_turning(machine, machine.turning, grid)
+    if machine.turning is not None:
+        from crankwork.analysis.torsion import shaft_alone  # noqa: PLC0415
+
+        return shaft_alone(machine, grid)
+    if machine.stages is not None:
+        from crankwork.analysis.stages import analyse_stages  # noqa: PLC0415
+
+        return analyse_stages(machine, machine.stages, grid)
+    if machine.rotor is not None:
+        from crankwork.analysis.rotor_balance import analyse_rotor  # noqa: PLC0415
+
+        return analyse_rotor(machine, machine.rotor, grid)
+    from crankwork.analysis.test_bed import analyse_test  # noqa: PLC0415
+
+    return analyse_test(machine)
 
 
 def columns_only(machine: Machine) -> Results:

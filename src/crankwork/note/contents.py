@@ -40,8 +40,7 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
 def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:
     """Return the drawing sheets of a machine in every format, by the ending of their files."""
     options = options or NoteOptions()
-    has_rows = results.machine.linkage is not None or results.machine.stages is None
-    if results.machine.turning is not None or results.machine.rotor is not None or not has_rows:
+    if results.machine.alone:
         raise CrankworkError(ErrorMessage("sheets_of_shaft"))
     # few notes have sheets
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed

@@ -197,14 +197,8 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
     """
     if "piston_displacement" in results.columns:
         groups = _of_piston(results, _DEGREES if degrees is None else degrees, force_degrees)
-    elif results.machine.turning is not None:
-        groups = _of_shaft(results)
-    elif results.machine.rotor is not None:
-        groups = _of_rotor(results)
-    elif results.machine.linkage is None and results.machine.stages is not None:
-        groups = iter((Group("stages", _LineFilter(results, 0.0).lines(_STAGES)),))
-    elif results.machine.test is not None:
-        groups = iter((_of_test(results),))
+    elif results.machine.alone:
+        groups = iter(_ALONE[results.machine.alone](results))
     else:
         groups = _of_links(results, degrees)
     groups = itertools.chain(groups, _of_torsion(results))
@@ -616,3 +610,18 @@ def values_by_method(trace: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
             kind = key_of(known.key).quantity
             if kind == "excess_work" or (kind in _WHEEL and isinstance(known.node, FormulaCall) and known.value > 0):
                 yield known
+
+
+def _of_stages(results: Results) -> Iterator[Group]:
+    """Yield the lines of the stages of a compressor."""
+    yield Group("stages", _LineFilter(results, 0.0).lines(_STAGES))
+
+
+# groups where there is no mechanism
+_ALONE: dict[str, Callable[[Results], Iterable[Group]]] = {
+    "test": lambda results: (_of_test(results),),
+    "turning": _of_shaft,
+    "torsion": _of_shaft,
+    "rotor": _of_rotor,
+    "stages": _of_stages,
+}

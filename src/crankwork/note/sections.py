@@ -172,6 +172,16 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
             yield symbol_table([(Math(meaning.symbol), meaning.text.removesuffix(newton)) for meaning in listed], words)
 
 
+# titles and subtitles where there is no mechanism
+_ALONE = {
+    "test": ("test", "test_subtitle"),
+    "turning": ("turning", "turning_subtitle"),
+    "torsion": ("torsion", "turning_subtitle"),
+    "rotor": ("rotor", "rotor_subtitle"),
+    "stages": ("compressor", "compressor_subtitle"),
+}
+
+
 def _titles(material: Material) -> tuple[str, str]:
     """Return the title of a note that has none of its own, and the key of its subtitle."""
     words = material.words
@@ -179,14 +189,9 @@ def _titles(material: Material) -> tuple[str, str]:
         space = material.results.solved.space
         is_engine = space is not None and space.work > 0 and "bore" in material.summary
         return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
-    if material.machine.test is not None:
-        return words.title("test"), "test_subtitle"
-    if material.machine.turning is not None:
-        return words.title("turning" if material.machine.turning.diagrams else "torsion"), "turning_subtitle"
-    if material.machine.rotor is not None:
-        return words.title("rotor"), "rotor_subtitle"
-    if material.machine.linkage is None and material.machine.stages is not None:
-        return words.title("compressor"), "compressor_subtitle"
+    if material.machine.alone:
+        title, subtitle = _ALONE[material.machine.alone]
+        return words.title(title), subtitle
     return words.title("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
 
 

@@ -226,7 +226,7 @@ class Drawn:
     def style(self) -> Style:
         """How its figures are written."""
         results, machine = self.results, self.results.machine
-        if machine.turning is not None or machine.rotor is not None:
+        if machine.alone in ("turning", "torsion", "rotor"):
             return Style(self.language, turns="shaft")
         if machine.linkage is None:
             return Style(self.language, period=results.period)
