@@ -79,10 +79,6 @@ def analyse(
     used = method or machine.method
     engine = _engine_of(machine, used)
     results = _analysed(engine or machine, grid, method, progress)
-    if machine.torsion is not None:
-        from crankwork.analysis.torsion import with_torsion  # noqa: PLC0415 - few machines vibrate
-
-        results = with_torsion(results)
     stated = tuple(Notice(*notice) for notice in machine.notices)
     other = partial(_in_other_form, machine, results.grid, used, is_engine=engine is not None)
     notices = (*stated, *results.notices, *implausible(results))
@@ -151,6 +147,17 @@ def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:
 
 
 def _analysed(
+    machine: Machine, grid: CrankGrid | None, method: Method | None, progress: Callable[[float], None] | None
+) -> Results:
+    results = _of_kind(machine, grid, method, progress)
+    if machine.torsion is None:
+        return results
+    from crankwork.analysis.torsion import with_torsion  # noqa: PLC0415 - few machines vibrate
+
+    return with_torsion(results)
+
+
+def _of_kind(
     machine: Machine, grid: CrankGrid | None, method: Method | None, progress: Callable[[float], None] | None
 ) -> Results:
     # imported by kind of machine, since loading the other packages would take longer than the analysis

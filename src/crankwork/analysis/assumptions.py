@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from crankwork.analysis.results import Results
 
 # keys of a file about its texts, tables and drawings, which change no result
-_DISPLAY = re.compile(r"(title|document|format|units|decimal_mark|table)\b.*|.*\bsource")
+_DISPLAY = re.compile(r"(title|document|format|units|decimal_mark|table)\b.*|.*\bsource|torsion\.(modes|trials.*)")
 # they choose a circuit, which nearby positions choose as well, or permit what may not be there
 _CHOOSING = re.compile(r"(positions|branch)\..*")
 # numbers that are in the trace if a result depends on them
@@ -206,7 +206,11 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"stages\.(water_heat_capacity|sides)", lambda results, _, path: path in leaves(results)),
     (_ROUNDED, lambda results, stated, path: not _idle_convention(path, stated, results)),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
-)
+    (r"torsion\.modulus", lambda results, *_: "torsion.modulus" in leaves(results)),
+    # undamped modes have no damping
+    (r"torsion\.(orders|.*\.(damping|loss_factor))", lambda results, *_: any(
+        key.startswith("vibration_amplitude") for key in results.summary)),
+)  # fmt: skip
 
 
 def _default_matters(path: str, results: Results, stated: Mapping[str, FileInput]) -> bool:

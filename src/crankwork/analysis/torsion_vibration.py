@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -43,7 +43,8 @@ class Excitation(NamedTuple):
     waves: tuple[Wave, ...]
     numbers: tuple[TracedValue, ...]
     cycle: float
-    phases: Mapping[int, tuple[float, ...]]  # Of each disc the angles by which its torques are late [rad]
+    # Discs with the order of a torque and by which it is ahead, or without an order by which all are late [rad]
+    phases: tuple[tuple[int, float | None, float], ...]
 
 
 class Vibrating(NamedTuple):
@@ -93,7 +94,9 @@ def vibrating(results: Results, trace: TorsionTrace, modes: Modes) -> Vibrating:
         *loss, *[absent("loss_factor")] * (count - len(loss)), speed, *excitation.numbers,
     )  # fmt: skip
     forced = ForcedVibration(natural, excitation.waves, excitation.cycle)
-    return Vibrating(trace, modes, forced, operands, excitation, speed.value)
+    # discs and shafts alone need no speed
+    is_known = engine_of(results) is not None or "crank.speed" in results.machine.stated
+    return Vibrating(trace, modes, forced, operands, excitation, speed.value if is_known else 0.0)
 
 
 def _damping(path: str, value: float) -> TracedValue:
@@ -103,11 +106,11 @@ def _damping(path: str, value: float) -> TracedValue:
 def _excitation(results: Results, trace: TorsionTrace) -> Excitation:
     """Return the torques that a file states, and those of the cylinders of an engine."""
     number = {name: index for index, name in enumerate(trace.names)}
-    waves, numbers, late = list[Wave](), list[TracedValue](), dict[int, tuple[float, ...]]()
+    waves, numbers, phases = list[Wave](), list[TracedValue](), list[tuple[int, float | None, float]]()
     for index, torque in enumerate(trace.model.torques, start=1):
         path, disc, own = f"{_PATH}.torques[{index}]", number[torque.disc], len(numbers)
         numbers.append(given("excitation_torque", torque.torque, f"{path}.torque"))
-        late[disc] = (*late.get(disc, ()), 0.0)
+        phases.append((disc, torque.order, torque.phase))
         if torque.frequency is not None:
             numbers.append(given("angular_frequency", torque.frequency, f"{path}.frequency"))
             waves.append(Wave(disc, 0.0, own, None, torque.phase, frequency=own + 1))
@@ -118,17 +121,17 @@ def _excitation(results: Results, trace: TorsionTrace) -> Excitation:
         cycle, places = math.radians(engine.layout.cycle), dict[int, int]()
         for place, torques in gas_and_inertia_torques(engine, trace.model.orders):
             disc, delay = number[f"throw_{place.throw + 1}"], math.radians(place.firing_angle)
-            late[disc] = (*late.get(disc, ()), delay)
+            phases.append((disc, None, delay))
             for order, cosine, sine, is_inertia in torques:
                 if id(cosine) not in places:
                     places[id(cosine)] = len(numbers)
                     numbers += [cosine, sine]
                 own = places[id(cosine)]
                 waves.append(Wave(disc, order, own, own + 1, -order * delay, is_inertia=is_inertia))
-        return Excitation(tuple(waves), tuple(numbers), cycle, late)
+        return Excitation(tuple(waves), tuple(numbers), cycle, tuple(phases))
     orders = [wave.order for wave in waves if wave.frequency is None]
     periods = next((count for count in range(1, _MOST_PERIODS) if all((count * order) % 1 == 0 for order in orders)), 2)
-    return Excitation(tuple(waves), tuple(numbers), periods * math.tau, late)
+    return Excitation(tuple(waves), tuple(numbers), periods * math.tau, tuple(phases))
 
 
 def forced_values(system: Vibrating, pi: float) -> dict[str, TracedValue]:
@@ -251,8 +254,12 @@ def _critical_speeds(system: Vibrating) -> dict[str, Array]:
     damped = system.forced.system(system.numbers) if system.is_damped else None
     for row, (mode, w, order) in enumerate(rows):
         shape, own = system.modes.shape[mode], torque[row, np.searchsorted(orders, order)]
-        late = system.excitation.phases
-        sums.append(abs(sum(shape[disc] * np.exp(-1j * order * angle) for disc in late for angle in late[disc])))
+        vectors = (
+            shape[disc] * np.exp(1j * (-order * angle if own_order is None else angle))
+            for disc, own_order, angle in system.excitation.phases
+            if own_order in (None, order)
+        )
+        sums.append(abs(sum(vectors)))
         works.append(abs(shape @ own[: shape.size]))
         if damped is not None:
             amplitudes.append(abs(damped.forced([w], own[None])[0][0, 0]))

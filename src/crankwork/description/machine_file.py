@@ -255,7 +255,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
     notices += machine.engine.notices if machine.engine is not None else ()
     if "loads" in values or has_own_sizes(values):
         # the forces of the engine alone would be other ones
-        notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance") if name in values]
+        notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance", "torsion") if name in values]
         return replace(linkage, stated=machine.stated, notices=tuple(notices))
     linkage = replace(linkage, stated=machine.stated, notices=tuple(notices))
     return replace(linkage, other_form=functools.partial(_engine_form, linkage, machine))

@@ -198,7 +198,7 @@ def _headline(machine: Machine, summary: Mapping[str, float], language: Language
     if machine.transfer is not None:
         bodies, positions = len(machine.transfer.bodies), len(machine.transfer.angles)
         lines.append(translate("check.table", language, bodies=bodies, positions=positions))
-    if machine.turning is not None:
+    if machine.turning is not None and machine.turning.diagrams:
         lines.append(translate("check.turning", language, cycle=f"{machine.cycle:g}"))
     if machine.rotor is not None:
         planes = translate(f"check.{'one_plane' if machine.rotor.is_flat else 'several_planes'}", language)
@@ -206,6 +206,12 @@ def _headline(machine: Machine, summary: Mapping[str, float], language: Language
     if machine.stages is not None:
         count = sum(key.startswith("stage_pressure_ratio.") for key in summary)
         lines.append(translate("check.stages", language, count=count))
+    if machine.torsion is not None:
+        counts = {
+            "discs": len(machine.torsion.discs) + len(machine.torsion.throws),
+            "shafts": len(machine.torsion.shafts),
+        }
+        lines.append(translate("check.torsion", language, **counts))
     if machine.linkage is not None:
         lines += _drawing_lines(machine, language)
     if machine.chambers:

@@ -89,9 +89,13 @@ def campbell(machine: Drawn) -> Drawing:
         at_top = last < end
         small_text(paper, x + (0 if at_top else 3), y - 3 if at_top else y + 3, machine.number(order),
                    "middle" if at_top else "start")  # fmt: skip
+    for mode in modes.tolist():
+        text = f"{machine.symbol('natural_frequency')[:-1]}_{mode}$ = {machine.number(frequency[mode - 1], 4)}"
+        x, y = graph.point(0.0, float(frequency[mode - 1]))
+        graph.text_on_white(x + 6, y - 4, f"{text} {machine.unit('natural_frequency')}", size=7.0)
     for x, mode in zip(speed.tolist(), critical["mode_number"].tolist(), strict=True):
         paper.dot(*graph.point(x, float(frequency[int(mode) - 1])), 1.5)
-    graph.x_title(axis_title(QUANTITIES["critical_speed"], language))
+    graph.x_title(axis_title(QUANTITIES["rotational_speed"], language))
     graph.y_title(axis_title(QUANTITIES["natural_frequency"], language))
     return paper.drawing(figure_title("campbell", language), language)
 
@@ -116,7 +120,7 @@ def torsional_response(machine: Drawn) -> Drawing:
         is_last = index == len(shown) - 1
         graph.frame(round_ticks(*graph.x), round_ticks(*graph.y, 6), labels=(is_last, True))
         for key, column, style in zip(keys, values, STYLES, strict=False):
-            graph.curve(key, speed, column, style)
+            graph.curve(key_of(key).owner, speed, column, style)
         graph.y_title(axis_title(QUANTITIES[kind], language))
         if is_last:
             graph.x_title(axis_title(QUANTITIES["rotational_speed"], language))

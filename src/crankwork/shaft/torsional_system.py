@@ -22,7 +22,8 @@ GROUND = -1
 _DEGREE = 20
 # an amplitude below this part of the largest is that of a node
 _NODE = 1e-9
-_ROUNDING = 1e-15
+# part of a frequency
+_BESIDE = 1e-12
 _NO_NUMBERS = partial(np.empty, 0)
 # points of a cycle for each wave of the highest order, and least number of them
 _PER_WAVE, _FEWEST = 16, 256
@@ -206,6 +207,8 @@ class TorsionalSystem:
         twist, factor, shaft, mass, to_discs = self.assembled
         root = np.sqrt(factor * self.stiffness[shaft])[:, None] * twist
         is_heavy = np.diag(mass) > 0
+        if not is_heavy.any():
+            return Modes(np.empty(0), np.empty((0, self.structure.discs)), 0)
         heavy, light = root[:, is_heavy], root[:, ~is_heavy]
         q, _ = np.linalg.qr(light)
         lower = np.linalg.cholesky(mass[np.ix_(is_heavy, is_heavy)])
@@ -237,7 +240,11 @@ class TorsionalSystem:
         stiff = (factor * (self.stiffness * (1 + 1j * loss))[shaft])[:, None] * twist
         slow = (factor * damping[shaft])[:, None] * twist
         dynamic = twist.T @ stiff + 1j * w * (twist.T @ slow + to_discs.T * held @ to_discs) - w**2 * mass
-        angle = np.linalg.solve(dynamic, (torque @ to_discs)[:, :, None])[:, :, 0]
+        try:
+            angle = np.linalg.solve(dynamic, (torque @ to_discs)[:, :, None])[:, :, 0]
+        except np.linalg.LinAlgError:
+            # without damping exactly at a natural frequency: beside it the amplitude is as good as infinite
+            return self.forced(np.asarray(frequency, dtype=float) * (1 + _BESIDE), torque)
         # of a shaft with mass the torque at its middle part
         first = np.searchsorted(shaft, np.arange(count))
         inside = angle @ stiff[first].T + 1j * w[:, :, 0] * (angle @ slow[first].T)
@@ -274,19 +281,10 @@ class TorsionalSystem:
     def trial(self, frequency: float) -> Array:
         """Return the angles of discs at a frequency that only the last disc is out of balance at, the first at one.
 
-        `structure` is a tree, its shafts without mass; branches meet with one angle [rad/s] (holzer_1921).
+        Branches meet with one angle [rad/s] (holzer_1921).
         """
-        torque = self.inertia * frequency**2 - self._held
-        scales = []
-        for disc, following, shaft, i in self._links:
-            # the torque of a branch that passes through a node at its foot is limited by rounding
-            left = 1.0 if shaft is None else 1 - torque[disc] / self.stiffness[shaft]
-            scales.append(i / (left or _ROUNDING))
-            torque[following] += torque[disc] * scales[-1] * i
-        angle = np.ones(self.structure.discs)
-        for (disc, following, _, _), scale in zip(reversed(self._links), reversed(scales), strict=True):
-            angle[disc] = angle[following] * scale
-        return normalised(angle)
+        torque = np.eye(1, self.structure.discs, self.structure.discs - 1).astype(complex)
+        return normalised(self.forced([frequency], torque)[0][0].real)
 
     def holzer(self, frequency: float, angle: Array) -> HolzerTable:
         """Return the table by Holzer at a frequency [rad/s], of the angles of a mode or of a trial."""
