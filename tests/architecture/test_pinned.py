@@ -17,7 +17,7 @@ from rules import every_formula
 
 PINNED = {
     "symbols": "d7fef5e62daf",
-    "formulas": "a8708cfb72b6",
+    "formulas": "62ef010d2de0",
     "quantities": "e93978863a92",
     "defaults": "e4df0c3968a6",
 }
