@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.prepared import PreparedCylinder, WorkingSpace
+from crankwork.analysis.prepared import Notice, PreparedCylinder, WorkingSpace
 from crankwork.analysis.results import Listing, Results
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.cycle_interpolant import CycleInterpolant
@@ -107,6 +107,7 @@ def with_combustion(results: Results) -> Results:
     checks = {"first_law": abs(residual) / max(abs(values["heat_released"].value), 1e-300)}
     return replace(
         results,
+        notices=(*results.notices, *_taken(data)),
         columns={**results.columns, **Program(columns)(results.grid)},
         summary={**results.summary, **{key: value.value for key, value in values.items()}},
         checks={**results.checks, **checks},
@@ -114,6 +115,13 @@ def with_combustion(results: Results) -> Results:
         listings=listings,
         trace={**results.trace, **between, **columns, **values},
     )
+
+
+def _taken(data: BurningAnalysis) -> list[Notice]:
+    """Return what is taken as usual for the heat to the walls, and that no gas is lost."""
+    kept = [Notice("burning_mass", {})]
+    wall = Notice("burning_walls", {"exponent": data.motored_exponent})
+    return kept if data.wall_temperature is None else [*kept, wall]
 
 
 def _columns(

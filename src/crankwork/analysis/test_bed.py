@@ -84,12 +84,10 @@ def _worked(machine: Machine, sizes: Mapping[str, TracedValue]) -> dict[str, Tra
         quantity = MEASURED.get(key, key)
         if key != "one_cut":
             worked.given(quantity, numbers[0], f"cylinder.{key}" if key == "displacement" else f"test.{key}")
-    # one cylinder of four strokes, and dry air
-    usual_values = {"cylinder_count": 1.0, "strokes_per_cycle": 4.0}
-    usual_values |= {"specific_gas_constant": 287.0} if "charge_pressure" in worked.known else {}
-    for key, usual in usual_values.items():
-        if key not in worked.known:
-            worked.given(key, usual)
+    worked.known.setdefault("cylinder_count", given("cylinder_count", 1.0))
+    if "charge_pressure" in worked.known:
+        # dry air
+        worked.given("specific_gas_constant", 287.0)
     cylinder = machine.cylinder
     if cylinder is not None and cylinder.piston_rod_diameter:
         rod = given("piston_rod_diameter", cylinder.piston_rod_diameter, "cylinder.piston_rod_diameter")

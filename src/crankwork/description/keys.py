@@ -779,13 +779,19 @@ MACHINE_FILE = TableSpec("file", {
 })  # fmt: skip
 # a test alone, of an engine of which only its sizes are known
 _TURNED = TableSpec("crank", {key: _CRANK.keys[key]._replace(required=False) for key in ("radius", "stroke", "speed")})
+# of one cylinder and four strokes where nothing else is stated
+_ALONE = TEST._replace(keys={
+    **TEST.keys,
+    "cylinders": TEST.keys["cylinders"]._replace(default=1),
+    "strokes": TEST.keys["strokes"]._replace(default=4),
+})  # fmt: skip
 _BORED = ("bore", "displacement", "piston_rod_diameter")
 TEST_FILE = TableSpec("file", {
     **TITLE,
     "document": TEST_DOCUMENT,
     "crank": KeySpec(_TURNED),
     "cylinder": KeySpec(TableSpec("cylinder", {key: _CYLINDER.keys[key]._replace(required=False) for key in _BORED})),
-    "test": KeySpec(TEST, required=True),
+    "test": KeySpec(_ALONE, required=True),
     "method": KeySpec(METHOD),
 })  # fmt: skip
 
