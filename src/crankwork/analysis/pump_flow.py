@@ -111,12 +111,12 @@ def flow_values(machine: Machine, over: CycleInterpolant) -> dict[str, TracedVal
         extremes, mean = over.extremes(key), over.mean(key, f"mean_flow.{name}")
         high, low = extremes[f"vessel_flow_max.{name}"], extremes[f"vessel_flow_min.{name}"]
         excess = excess_work(Curve.legendre(np.radians(over.edges), over.polynomials(key)))
-        evened = TracedValue(ProcedureValue(excess.work, "range", (over.columns[key],))) / speed_of(machine)
+        beyond = TracedValue(ProcedureValue(excess.work, "integral", (over.columns[key],)), f"vessel_flow.Δ_{name}")
         values |= {
             f"mean_flow.{name}": mean,
             f"flow_pulsation.{name}": (high - low) / mean,
             f"flow_ratio.{name}": high / mean,
-            f"vessel_volume_change.{name}": evened,
+            f"vessel_volume_change.{name}": beyond / speed_of(machine),
         }
         if vessel.pipe is not None:
             uneven = over.mean(f"pipe_power.{name}", f"mean_pipe_power.{name}")
