@@ -292,6 +292,7 @@ def test_what_cannot_balance_is_refused() -> None:
         "any of many": _rotor(known, *(_mass(name, radius="1 m", position="0 m") for name in "BC")),
         "another mass": _rotor(known, known),
         "at most 2": CASES["khurmi 21.3"].text + "arrangement = 3",
+        "is too small": CASES["stasf1"].text.replace('"19.09 mm"', '"9 mm"'),
         "nothing to share": _rotor(known, more="reciprocating_share = 0.5"),
     }
     for words, text in cases.items():

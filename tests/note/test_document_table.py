@@ -10,7 +10,7 @@ import crankwork
 import notes
 from crankwork.description.document import Description
 from crankwork.description.keys import MACHINE_FILE
-from crankwork.description.links_keys import LINKAGE_FILE, TRANSFER_FILE, TURNING_FILE
+from crankwork.description.links_keys import LINKAGE_FILE, ROTOR_FILE, TRANSFER_FILE, TURNING_FILE
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import InputError
 from crankwork.note.contents import WRITERS, note_of, written_note
@@ -151,6 +151,7 @@ FILES = (
     (LINKAGE_FILE, ("atkinson", "excavator-boom", "parallelogram", "beta-stirling")),
     (TRANSFER_FILE, ("press",)),
     (TURNING_FILE, ("punching-machine",)),
+    (ROTOR_FILE, ("balancing",)),
 )
 
 
@@ -174,7 +175,10 @@ def test_sections_stand_in_the_order_in_which_they_are_named():
 
 
 @pytest.mark.slow
-@for_each(("name", "file"), [("engine", MACHINE_FILE), ("four-bar", LINKAGE_FILE), ("turning-moment", TURNING_FILE)])
+@for_each(
+    ("name", "file"),
+    [("engine", MACHINE_FILE), ("four-bar", LINKAGE_FILE), ("turning-moment", TURNING_FILE), ("balancing", ROTOR_FILE)],
+)
 def test_every_section_stands_alone(name, file):
     values = Description(template(name))
     lengths = {}

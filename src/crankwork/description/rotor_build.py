@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import string
+from collections.abc import Sequence
 from dataclasses import replace
 
-from crankwork.cylinders.planes import PlaneMass, Rotor, Sector, arrangements
+from crankwork.cylinders.planes import PlaneMass, Rotor, Sector, arrangements, sector_moment
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
@@ -30,9 +31,11 @@ def build_rotor(values: Values, reader: Reader) -> Machine | None:
         speed = 2 * train.si("speed") / train.si("wheel_diameter") * math.pi / method.pi
     rotor = None if reader.problems else _rotor(table, reader)
     try:
-        count = len(arrangements(rotor)) if rotor is not None and not reader.problems else 0
-        if rotor is not None and count and rotor.arrangement > count:
-            reader.add_error("rotor.arrangement", ErrorMessage("rotor_arrangement", count=count))
+        states = arrangements(rotor) if rotor is not None and not reader.problems else []
+        if rotor is not None and states and rotor.arrangement > len(states):
+            reader.add_error("rotor.arrangement", ErrorMessage("rotor_arrangement", count=len(states)))
+        elif rotor is not None and states:
+            _check_sectors(rotor, states[rotor.arrangement - 1].sizes.tolist(), reader)
     except CrankworkError as error:
         reader.add_error("rotor.masses", error.args[0])
     if rotor is None or reader.problems:
@@ -47,6 +50,16 @@ def build_rotor(values: Values, reader: Reader) -> Machine | None:
         table_special=tuple(values["table"].degrees("special_angles")),
         stated=stated_numbers(values),
     )
+
+
+def _check_sectors(rotor: Rotor, sizes: Sequence[float], reader: Reader) -> None:
+    """Report sectors that are wanted and too small for their moments."""
+    for number, (mass, needed) in enumerate(zip(rotor.masses, sizes, strict=True), start=1):
+        if mass.sector is not None and mass.sector.angle is None:
+            most = float(sector_moment(*vars(replace(mass.sector, angle=math.pi)).values()))
+            if needed > most:
+                path = f"rotor.masses[{number}].sector"
+                reader.add_error(path, ErrorMessage("rotor_sector", most=most, needed=needed))
 
 
 def _rotor(table: Values, reader: Reader) -> Rotor:
