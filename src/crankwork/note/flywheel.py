@@ -17,7 +17,6 @@ from crankwork.note.parts import (
     Head,
     Lines,
     Listed,
-    Over,
     Part,
     Places,
     Section,
@@ -36,8 +35,8 @@ from crankwork.note.parts import (
     turning,
     works,
 )
-from crankwork.note.tables import position_tables, quantity_column
-from crankwork.note.torque import HARMONICS, ONE
+from crankwork.note.tables import angle_table, position_tables, quantity_column
+from crankwork.note.torque import HARMONICS, ONE, repeat_interval
 from crankwork.quantities.key import key_of
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
@@ -108,9 +107,11 @@ def _over_angle(material: Material) -> Iterator[Block]:
 
 def _over_cycle(material: Material) -> Iterator[Block]:
     """Yield energy and speed over the cycle, with the figure that the flywheel is found in."""
-    table = Over("speed" if material.has("crank_speed") else "energy", ("kinetic_energy_change", "crank_speed"))
-    used = ("wittenbauer",) if "wittenbauer" in material.drawn and not material.full else _FIGURES
-    return material.presented([table(material)], used)
+    caption, is_short = "speed" if material.has("crank_speed") else "energy", not material.full
+    until = repeat_interval(material) if is_short and material.has("total_torque") else math.inf
+    table = angle_table(material, caption, ("kinetic_energy_change", "crank_speed"), until=until)
+    used = ("wittenbauer",) if "wittenbauer" in material.drawn and is_short else _FIGURES
+    return material.presented([table], used)
 
 
 def _exact_work(material: Material) -> Math:

@@ -67,7 +67,7 @@ _SETTINGS = """
 #set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
 #set par(leading: 0.65em, spacing: 0.75em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
-#show heading: set block(above: 1.3em, below: 0.8em, sticky: true)
+#show heading: set block(above: 1.15em, below: 0.7em, sticky: true)
 #show heading: set par(justify: false)
 #show figure.caption: set text(hyphenate: false)
 #show figure.caption: set par(justify: false)
@@ -90,10 +90,10 @@ _SETTINGS = """
 ))
 #show figure.caption: set text(hyphenate: false)
 #show figure.caption: set par(justify: false)
-#let drawing(body, words) = block(breakable: false, width: 100%, above: 1.2em, below: 1.2em, figure(
+#let drawing(body, words) = block(breakable: false, width: 100%, above: 0.9em, below: 0.9em, figure(
   body, caption: words, numbering: none, supplement: none, kind: "drawing",
 ))
-#let beside(..parts) = block(breakable: false, above: 1.2em, below: 1.2em, grid(
+#let beside(..parts) = block(breakable: false, above: 0.9em, below: 0.9em, grid(
   columns: (1fr, 1fr), column-gutter: 6mm, ..parts.pos(),
 ))
 #set page(foreground: context {

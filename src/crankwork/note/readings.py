@@ -186,6 +186,7 @@ def _of_mains(material: Material) -> Paragraph | None:
     rows = [row for row, name in enumerate(listing.names) if name.startswith("main_journal")]
     if not rows:
         return None
+    area = material.area("bearing_load_max")
     load, angle = (listing.columns[f"bearing_load_max{place}"] for place in ("", "_angle"))
     largest = max(float(load[index]) for index in rows)
     row, *equal = (index for index in rows if load[index] >= largest * (1 - ROUNDING))
@@ -193,6 +194,8 @@ def _of_mains(material: Material) -> Paragraph | None:
     return words.paragraph(
         "reads_mains",
         name=f"{row_name(listing.names[row], words.language)}{numbers}",
-        value=words.amount(float(load[row]), key_unit("bearing_load_max"), digits=4),
+        value=words.amount(
+            float(load[row]) / (area or 1.0), key_unit("bearing_load_max", per_area=bool(area)), digits=4
+        ),
         angle=words.angle(float(angle[row])),
     )

@@ -55,11 +55,11 @@ def _firing_order(material: Material) -> str:
 def _all_cylinders(material: Material) -> Table | None:
     """Return the torques of the cylinders, their sum, and the sum of the tangential forces."""
     keys = [key for key in material.columns if key.startswith("crank_torque.")]
-    interval = math.inf if material.full else _interval(material)
+    interval = math.inf if material.full else repeat_interval(material)
     return angle_table(material, "total", [*keys, "total_torque", "total_tangential_force"], until=interval)
 
 
-def _interval(material: Material) -> float:
+def repeat_interval(material: Material) -> float:
     """Return the crank angle after which the total torque repeats, infinite if that is the cycle. [deg]"""
     results, cycle = material.results, material.machine.cycle
     known, degrees = results.trace.get("firing_interval"), results.grid.degrees
@@ -159,7 +159,7 @@ def _states(name: str) -> Condition:
 
 # the angle that is worked, within the interval that is tabulated
 _REPEATS = Text("total_repeats", {"value": lambda material: material.words.place_text(
-    (material.groups["engine_torque"].degrees or 0.0) % _interval(material))})  # fmt: skip
+    (material.groups["engine_torque"].degrees or 0.0) % repeat_interval(material))})  # fmt: skip
 ONE, _SEVERAL = _cylinders(lambda count: count == 1), _cylinders(lambda count: count > 1)
 # amplitudes of the torque by order, worked for the first of them
 HARMONICS: tuple[Part, ...] = (
@@ -180,7 +180,7 @@ SECTIONS = (
                 "tangential_force", "crank_torque", "throw_torque", "total_torque", "total_tangential_force",
             )),
         )),
-        When(every(_SEVERAL, lacks(full), lambda material: _interval(material) < math.inf), (_REPEATS,)),
+        When(every(_SEVERAL, lacks(full), lambda material: repeat_interval(material) < math.inf), (_REPEATS,)),
         When(_SEVERAL, (Shown(("total_tangential_force", "total_torque"), (_all_cylinders,)),)),
         When(ONE, (
             Shown(("total_torque",)),
