@@ -271,9 +271,9 @@ def with_engine_results(results: Results) -> Results:
     if layout.cycle != machine.cycle:
         return results
     machine = replace(machine, engine=Engine(layout, notices=notices))
-    whole = replace(analyse_engine(machine, results.grid, method=results.method), compared=results.compared)
+    completed = replace(analyse_engine(machine, results.grid, method=results.method), compared=results.compared)
     if machine.torsion is not None:
         from crankwork.analysis.torsion import with_torsion  # noqa: PLC0415 - few machines vibrate
 
-        whole = with_torsion(whole)
-    return whole
+        completed = with_torsion(completed)
+    return completed
