@@ -272,9 +272,9 @@ def with_engine_results(results: Results) -> Results:
         return results
     machine = replace(machine, engine=Engine(layout, notices=notices))
     own = with_measured(analyse_engine(machine, results.grid, method=results.method))
-    whole = replace(own, compared=results.compared)
+    completed = replace(own, compared=results.compared)
     if machine.torsion is not None:
         from crankwork.analysis.torsion import with_torsion  # noqa: PLC0415 - few machines vibrate
 
-        whole = with_torsion(whole)
-    return whole
+        completed = with_torsion(completed)
+    return completed

@@ -23,7 +23,7 @@ _DEGREE = 20
 # an amplitude below this part of the largest is that of a node
 _NODE = 1e-9
 # part of a frequency
-_BESIDE = 1e-12
+_OFFSET = 1e-12
 _NO_NUMBERS = partial(np.empty, 0)
 # points of a cycle for each wave of the highest order, and least number of them
 _PER_WAVE, _FEWEST = 16, 256
@@ -244,7 +244,7 @@ class TorsionalSystem:
             angle = np.linalg.solve(dynamic, (torque @ to_discs)[:, :, None])[:, :, 0]
         except np.linalg.LinAlgError:
             # without damping exactly at a natural frequency: beside it the amplitude is as good as infinite
-            return self.forced(np.asarray(frequency, dtype=float) * (1 + _BESIDE), torque)
+            return self.forced(np.asarray(frequency, dtype=float) * (1 + _OFFSET), torque)
         # of a shaft with mass the torque at its middle part
         first = np.searchsorted(shaft, np.arange(count))
         inside = angle @ stiff[first].T + 1j * w[:, :, 0] * (angle @ slow[first].T)
