@@ -14,6 +14,8 @@ from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.torsion_machine import throw_inertias
 from crankwork.analysis.torsion_trace import TorsionTrace, torsion_trace
 from crankwork.analysis.torsion_vibration import (
+    NODE,
+    at_rest,
     damped_values,
     damper_values,
     forced_values,
@@ -27,9 +29,6 @@ from crankwork.machine import Machine
 from crankwork.shaft.torsion_model import GROUNDED
 from crankwork.shaft.torsion_replay import NaturalModes
 from crankwork.shaft.torsional_system import HolzerTable, Modes
-
-# an amplitude below this part of the largest is that of a node
-_NODE = 1e-9
 
 
 def shaft_alone(machine: Machine, grid: CrankGrid | None = None) -> Results:
@@ -104,7 +103,7 @@ def _nodes(
             if GROUNDED in shaft.between or shaft.density is not None:
                 continue
             first, second = (shape[number[end]] for end in shaft.between)
-            if abs(first) < _NODE * np.max(np.abs(shape)) or first * second >= 0:
+            if min(abs(first), abs(second)) < NODE * np.max(np.abs(shape)) or first * second >= 0:
                 continue
             a, b = (values[f"relative_amplitude.{mode}.{end}"] for end in shaft.between)
             length = values.get(f"equivalent_length.{name}.own", trace.lengths.get(name))
@@ -125,6 +124,8 @@ def _nodes(
                     own = next(item for item in first_length.node.operands if item.key == "shaft_length")
                     distances[key] = (own * a / (a - b)).named(key)
             yield (mode, name), distances
+        for name in at_rest(trace.names, shape):
+            yield (mode, name), {}
 
 
 def _compliance(parts: tuple[object, ...]) -> float:

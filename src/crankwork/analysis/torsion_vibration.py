@@ -35,6 +35,8 @@ from crankwork.shaft.torsional_system import Modes
 _RANGE, _POINTS = (0.2, 1.2), 161
 _MOST_PERIODS = 12
 _PATH = "torsion"
+# an amplitude below this part of the largest is that of a node
+NODE = 1e-9
 
 
 class Excitation(NamedTuple):
@@ -182,7 +184,8 @@ def damper_values(results: Results, system: Vibrating) -> dict[str, TracedValue]
                          results.trace.get("crank_radius"))  # fmt: skip
     operands = bare.elastic
     for name, damper in model.dampers.items():
-        function = DampedDisc(NaturalModes(bare.structure, model.modes), bare.names.index(damper.on), damper.mode)
+        function = DampedDisc(NaturalModes(bare.structure, max(model.modes, damper.mode)), bare.names.index(damper.on),
+                              damper.mode)  # fmt: skip
         w, inertia = function.of([operand.value for operand in operands])
         if not math.isfinite(w):
             continue
@@ -225,6 +228,11 @@ def vibration_listings(system: Vibrating, pi: float) -> dict[str, Listing]:
     if any(wave.frequency is None for wave in system.excitation.waves):
         listings["torsional_response"] = Listing(_response(system, critical["critical_speed"], pi))
     return listings
+
+
+def at_rest(names: Sequence[str], shape: Array) -> list[str]:
+    """Return the discs in which a mode has a node."""
+    return [name for name, own in zip(names, shape.tolist(), strict=False) if abs(own) < NODE * np.max(np.abs(shape))]
 
 
 def _orders(system: Vibrating) -> Array:
@@ -290,7 +298,13 @@ def _response(system: Vibrating, critical: Array, pi: float) -> dict[str, Array]
 
 
 def vibration_notices(system: Vibrating, radius: float | None) -> Iterator[Notice]:
-    """Yield that nothing damps, and throws whose pins overlap, which formulas of throws are not made for."""
+    """Yield nodes in discs, rings that nothing holds, that nothing damps, and throws whose pins overlap."""
+    for mode, shape in enumerate(system.modes.shape, start=1):
+        for name in at_rest(system.trace.names, shape):
+            yield Notice("torsion_node", {"mode": mode, "name": name})
+    for name, damper in system.trace.model.dampers.items():
+        if not damper.damping and not damper.stiffness:
+            yield Notice("torsion_free_ring", {"name": name})
     if system.excitation.waves and not system.is_damped:
         yield Notice("torsion_undamped", {})
     throws: Sequence[ElasticShaft] = [item for item in system.trace.model.shafts.values() if item.throw is not None]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
@@ -23,9 +25,12 @@ from crankwork.shaft.torsion_model import (
     Throw,
     TorsionModel,
     structure_of,
+    walked,
 )
+from crankwork.shaft.torsion_replay import NaturalModes
 
 _TURN = 6.283185307179586
+_MOST = 10_000
 
 
 def build_torsion_alone(values: Values, reader: Reader) -> Machine | None:
@@ -173,19 +178,48 @@ def _check_names(model: TorsionModel, reader: Reader) -> None:
             reader.add_error(f"{path}.between", ErrorMessage("torsion_itself", name=pair[0]))
 
 
+def _check_joined(model: TorsionModel, reader: Reader) -> None:
+    """Report discs that nothing joins to the others, and rings of shafts and gears in which nothing can turn."""
+    ends = [(item.path, item.between, 1.0) for item in model.shafts.values()]
+    ends += [(f"torsion.gears.{name}", item.between, item.ratio) for name, item in model.gears.items()]
+    ends += [(path, (second, first), 1 / ratio) for path, (first, second), ratio in ends]
+    speed, parts = dict[str, float](), list[tuple[list[str], bool]]()
+    for start in (*model.throws, *model.discs):
+        if start in speed:
+            continue
+        speed[start], part, closing = 1.0, [start], ""
+        for name in part:
+            for path, other, ratio in ((path, pair[1], ratio) for path, pair, ratio in ends if pair[0] == name):
+                if other != GROUNDED and speed.setdefault(other, speed[name] * ratio) and other not in part:
+                    part.append(other)
+                closing = path if not math.isclose(speed.get(other, 0.0), speed[name] * ratio) else closing
+        held = any(GROUNDED in pair for _, pair, _ in ends if {*part} & {*pair})
+        parts.append((part, held))
+        if closing and not held:
+            reader.add_error(closing, ErrorMessage("torsion_ring"))
+    main, is_main_held = max(parts, key=lambda item: len(item[0]), default=([""], False))
+    for (name, *_), held in ((part, held) for part, held in parts if part is not main):
+        if not (held and is_main_held):
+            path = f"torsion.discs.{name}" if name in model.discs else "torsion.shafts"
+            reader.add_error(path, ErrorMessage("torsion_loose", name=name, other=main[0]))
+
+
 def _check_numbers(model: TorsionModel, reader: Reader) -> None:
-    """Report discs that hang on nothing or have no inertia, gears in a ring, and a system without inertia."""
-    structure = structure_of(model)
+    """Report discs that hang on nothing, gears in a ring, a system that does not vibrate, and modes it has not."""
+    structure = structure_of(replace(model, dampers={}))
     if len(set(structure.groups)) != structure.discs - len(structure.gears):
         reader.add_error("torsion.gears", ErrorMessage("torsion_gear_ring"))
-    for name, disc in model.discs.items():
-        has_inertia = disc.inertia or disc.mass
-        if (
-            not has_inertia
-            and not any(name in shaft.between for shaft in model.shafts.values())
-            and not any(name in gear.between for gear in model.gears.values())
-        ):
-            reader.add_error(f"torsion.discs.{name}", ErrorMessage("torsion_loose", name=name))
+    _check_joined(model, reader)
     heavy = any(disc.inertia or disc.mass for disc in model.discs.values()) or model.throws
     if not heavy and not any(shaft.density for shaft in model.shafts.values()):
         reader.add_error("torsion.discs", ErrorMessage("torsion_massless"))
+    massive = {name for name, disc in model.discs.items() if disc.inertia or disc.mass} | {*model.throws}
+    massive |= {name for shaft in model.shafts.values() if shaft.density for name in shaft.between}
+    groups = {group for name, group in zip(walked(model), structure.groups, strict=False) if name in massive}
+    light = len(set(structure.groups)) - len(groups)
+    count = NaturalModes(structure, _MOST).count - light
+    if not reader.problems and count < 1:
+        reader.add_error("torsion.discs", ErrorMessage("torsion_no_mode"))
+    for name, damper in model.dampers.items():
+        if 0 < count < damper.mode:
+            reader.add_error(f"torsion.dampers.{name}.mode", ErrorMessage("torsion_mode", count=str(count)))
