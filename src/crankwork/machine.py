@@ -482,7 +482,7 @@ class Machine:
             return ""
         if self.turning is not None:
             return "turning" if self.turning.diagrams else "torsion"
-        return next(name for name in ("rotor", "stages", "test") if getattr(self, name) is not None)
+        return next((name for name in ("rotor", "stages", "test") if getattr(self, name) is not None), "")
 
     @property
     def inclination(self) -> float:

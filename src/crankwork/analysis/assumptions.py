@@ -189,7 +189,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"method\.weights", lambda results, *_: _has_mass(results)),
     (r"rod\.ratio_definition", lambda _, stated, __: "rod.ratio" in stated),
     (r"engine\.strokes", lambda results, *_: results.machine.gas is None and not results.machine.chambers),
-    (r"engine\.uneven", lambda *_: False),
+    (r"engine\.uneven|rotor\.(arrangement|reciprocating_share)", lambda *_: False),
     (r"(cycle|chambers\..*\.cycle)\.stroke_bore_ratio", lambda _, stated, __: "cycle.power" in stated),
     (r"(cycle|chambers\..*\.cycle)\.motored", lambda results, *_: _has_misfire(results)),
     (r"links\..+\.inertia", lambda results, stated, path: not _idle_inertia(results, stated, path)),

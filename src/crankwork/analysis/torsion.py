@@ -23,7 +23,7 @@ from crankwork.analysis.torsion_vibration import (
     vibration_listings,
     vibration_notices,
 )
-from crankwork.formula.traced_value import FunctionValue, ProcedureValue, TracedValue
+from crankwork.formula.traced_value import FunctionValue, ProcedureValue, TracedValue, given
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
 from crankwork.shaft.torsion_model import GROUNDED
@@ -50,6 +50,7 @@ def with_torsion(results: Results) -> Results:
     values = dict(trace.values) | dict(_traced_modes(trace, natural, modes))
     nodes = dict(_nodes(trace, values, modes))
     values |= {key: value for pair in nodes.values() for key, value in pair.items()}
+    values |= dict(_remainders(trace, natural))
     system, pi = vibrating(results, trace, modes), results.method.pi
     values |= damper_values(results, system) | forced_values(system, pi)
     single = {key: value for key, value in values.items() if _is_single(key, value)}
@@ -69,8 +70,8 @@ def with_torsion(results: Results) -> Results:
 
 _SINGLE = (
     "natural_frequency", "node_distance", "equivalent_node_distance", "vibration_amplitude", "vibration_torque",
-    "vibration_stress", "effective_inertia", "damper_inertia_ratio", "optimum_tuning", "optimum_damping_ratio",
-    "optimum_damping", "optimum_stiffness", "least_magnification",
+    "vibration_stress", "holzer_remainder", "effective_inertia", "damper_inertia_ratio", "optimum_tuning",
+    "optimum_damping_ratio", "optimum_damping", "optimum_stiffness", "least_magnification",
 )  # fmt: skip
 _CALCULATED = ("torsional_stiffness", "equivalent_length", "equivalent_inertia")
 
@@ -180,6 +181,16 @@ def _node_listing(nodes: Mapping[tuple[int, str], Mapping[str, TracedValue]]) ->
         if not np.all(np.isnan(cells)):
             columns[kind] = np.array(cells)
     return {"torsional_nodes": Listing(columns, tuple(name for _, name in nodes))}
+
+
+def _remainders(trace: TorsionTrace, natural: NaturalModes) -> Iterator[tuple[str, TracedValue]]:
+    """Yield what tables by Holzer leave at trial frequencies."""
+    if natural.structure.is_tree and not natural.heavy:
+        system = natural.system([number.value for number in trace.elastic])
+        for index, w in enumerate(trace.model.trials, start=1):
+            key, left = f"holzer_remainder.{index}", system.holzer(w, system.trial(w)).remainder
+            w_trial = given("angular_frequency", w, f"torsion.trials[{index}]")
+            yield key, TracedValue(ProcedureValue(left, "holzer", (*trace.elastic, w_trial)), key)
 
 
 def _holzer(trace: TorsionTrace, natural: NaturalModes, modes: Modes) -> dict[str, Listing]:

@@ -201,7 +201,7 @@ _OF_HEAT = {"gas_constant": (), "temperature": ()}
 _OF_STAGES = {
     "suction": KeySpec(_ABSOLUTE, required=True),
     "discharge": KeySpec(_ABSOLUTE, required=True),
-    "between": KeySpec(OneForAll(_ABSOLUTE, _MOST_STAGES), instead_of=("ratio_limit", "temperature_limit")),
+    "between": KeySpec(OneForAll(_ABSOLUTE, _MOST_STAGES)),
     "losses": KeySpec(OneForAll(_POSITIVE, _MOST_STAGES)),
     "exponent": KeySpec(_STAGE_EXPONENT, required=True, instead_of=("discharge_temperature",)),
     "discharge_temperature": KeySpec(_TEMPERATURE.kind, instead_of=("exponent",), only={"temperature": ()}),
@@ -228,6 +228,7 @@ _STAGES = TableSpec("stages", {
     "temperature_limit": KeySpec(_TEMPERATURE.kind, instead_of=("count", "ratio_limit"),
                              only={"temperature": (), "exponent": ()}),
     **_OF_STAGES,
+    "between": _OF_STAGES["between"]._replace(instead_of=("ratio_limit", "temperature_limit")),
     "clearance": KeySpec(OneForAll(Number(0.0, 0.9), _MOST_STAGES), instead_of=("volumetric_efficiency",)),
     "volumetric_efficiency": KeySpec(OneForAll(Number(0.05, 1.0), _MOST_STAGES), instead_of=("clearance",)),
     "flow": KeySpec(_RATE, instead_of=("free_flow", "mass_flow")),

@@ -236,7 +236,11 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
     keys = [key for kind in numbers for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
-    keys = [key for key in summary if key != "speed"] if material.machine.rotor is not None else keys
+    if material.machine.rotor is not None:
+        keys = [
+            key for key in summary if not key.startswith(("speed", "reciprocating_moment", "plane_moment", "rotor_"))
+        ]
+        keys = keys or list(summary)
     if film is None:
         yield words.paragraph("main_results", table=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
