@@ -152,10 +152,17 @@ def _listings(trace: TorsionTrace, modes: Modes) -> dict[str, Listing]:
         ratios = [trace.geared[name].value if name in trace.geared else 1.0 for name in trace.names]
         discs["speed_ratio"] = np.array(ratios)
         discs["equivalent_inertia"] = discs["disc_inertia"] * discs["speed_ratio"] ** 2
+    held = [trace.model.discs[name].damping if name in trace.model.discs else 0.0 for name in trace.names]
+    if any(held):
+        discs["angular_damping"] = np.array(held)
     shafts = {"torsional_stiffness": np.array([item.value for item in trace.stiffness.values()])}
     if trace.lengths:
         lengths = [trace.lengths[name].value if name in trace.lengths else math.nan for name in trace.stiffness]
         shafts["equivalent_length"] = np.array(lengths)
+    for key, name in (("angular_damping", "damping"), ("loss_factor", "loss_factor")):
+        damped = np.array([getattr(shaft, name) for shaft in trace.model.shafts.values()])
+        if np.any(damped):
+            shafts[key] = damped
     frequency = modes.frequency
     rows = {"mode_number": np.arange(1.0, frequency.size + 1), "natural_frequency": frequency,
             "angular_frequency": frequency}  # fmt: skip

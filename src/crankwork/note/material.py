@@ -88,7 +88,8 @@ _MAIN_FIGURES = frozenset((
     "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan",
     "acceleration_plan", "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison",
     "turning_moment", "driver", "chambers", "speed", "sliders", "balance_polygons", "unbalanced", "stage_indicator",
-    "rod_loads", "pump_flow", "log_indicator", "combustion", "recorded_cycles",
+    "rod_loads", "torsional_modes", "campbell", "torsional_response", "pump_flow", "log_indicator",
+    "combustion", "recorded_cycles",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip

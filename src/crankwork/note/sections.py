@@ -176,7 +176,7 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
 _ALONE = {
     "test": ("test", "test_subtitle"),
     "turning": ("turning", "turning_subtitle"),
-    "torsion": ("torsion", "turning_subtitle"),
+    "torsion": ("torsion", "torsion_subtitle"),
     "rotor": ("rotor", "rotor_subtitle"),
     "stages": ("compressor", "compressor_subtitle"),
 }
