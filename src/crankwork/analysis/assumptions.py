@@ -106,6 +106,9 @@ def _left_out(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Ass
     masses = machine.masses
     if masses is not None and masses.rod_small_end and not masses.rod_inertia_excess and machine.method.rod == "rigid":
         yield Assumption("two_masses", ("rod.inertia",))
+    names = results.summary.keys() & {"swept_flow.1", "swept_volume.1", "clearance_volumetric_efficiency.1"}
+    if names == {"swept_flow.1", "swept_volume.1"}:
+        yield Assumption("no_clearance", ("stages.clearance", "stages.volumetric_efficiency"))
     yield from _without_mass(results, stated)
 
 
