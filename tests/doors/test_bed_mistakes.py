@@ -82,6 +82,7 @@ def of_file(text: str) -> crankwork.Results:
         (ALONE, 'cylinders = 2; one_cut = ["2 kW", "2 kW"]',
          "test.one_cut: says nothing without test.effective_power; add"),
         # what an engine has of its own
+        (ENGINE, "cylinders = 4", "test.cylinders: the engine of the file already gives it"),
         (ENGINE, "strokes = 2", "test.strokes: the engine of the file already gives it"),
         (ENGINE, 'indicated_mean_pressure = "20 bar"', "test.indicated_mean_pressure: the engine of the file already"),
         (ENGINE, 'peak_pressure = "20 bar"', "test.peak_pressure: the engine of the file already gives it"),

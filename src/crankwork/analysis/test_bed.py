@@ -69,6 +69,8 @@ def with_test(results: Results) -> Results:
     if results.machine.engine is not None:
         places = results.machine.engine.layout.places
         own["cylinder_count"] = given("cylinder_count", float(len(places)), "engine.cylinders")
+    elif results.machine.gas is not None:
+        own["cylinder_count"] = given("cylinder_count", 1.0)
     own |= {value.key: value for value in _speeds(results.machine)}
     if solved.space is not None:
         # losses follow the absolute pressure
