@@ -197,5 +197,5 @@ def test_losses_take_from_what_the_diagram_gives(losses: str, coefficients: tupl
 
 
 def test_nothing_that_follows_is_refused() -> None:
-    with pytest.raises(crankwork.errors.InputError, match="test: nothing follows"):
+    with pytest.raises(crankwork.errors.InputError, match=r"test\.fuel_density: says nothing without test\.fuel_flow"):
         of_file('test = { fuel_density = "800 kg/m3" }')

@@ -109,6 +109,9 @@ def _left_out(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Ass
     piped = tuple(name for name, vessel in machine.vessels.items() if vessel.pipe is not None)
     if piped:
         yield Assumption("vessel_pipes", tuple(f"vessels.{name}.length" for name in piped), names=piped)
+    names = results.summary.keys() & {"swept_flow.1", "swept_volume.1", "clearance_volumetric_efficiency.1"}
+    if names == {"swept_flow.1", "swept_volume.1"}:
+        yield Assumption("no_clearance", ("stages.clearance", "stages.volumetric_efficiency"))
     yield from _without_mass(results, stated)
 
 

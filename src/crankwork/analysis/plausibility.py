@@ -14,6 +14,7 @@ import numpy as np
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.results import Results
 from crankwork.cylinders.layout import Layout
+from crankwork.formula.traced_value import Input, in_order
 from crankwork.machine import Machine
 
 
@@ -30,6 +31,10 @@ class _Range(NamedTuple):
     keys: tuple[str, ...] = ()
 
 
+# results that no machine has below 0; no efficiency is above 1
+_SHARES = tuple(f"{name}_efficiency" for name in (
+    "effective", "indicated", "mechanical", "thermal", "isothermal", "overall_isothermal"))  # fmt: skip
+_POSITIVE = ("effective_torque", "effective_power", "indicated_power", "heat_rest")
 _OWN = ""
 _RESULTS = (
     _Range("mean_piston_speed", 0.0, 30.0, "heywood_1988", ("crank.speed",)),
@@ -55,6 +60,7 @@ _MOST_ORDERS, _BETTER, _ZERO = 6, 2.0, 1e-9
 def implausible(results: Results) -> Iterator[Notice]:
     """Yield a notice for each value far outside normal design."""
     machine = results.machine
+    yield from _impossible(results)
     file = machine.inputs() if machine.inputs is not None else None
     is_gauge = file is None or "gas.pressures" not in file.stated or file.stated["gas.pressures"].value == "gauge"
     for path, number in machine.stated.items():
@@ -75,6 +81,21 @@ def implausible(results: Results) -> Iterator[Notice]:
             yield from _outside(_ROD, rod / area or None, machine)
     if machine.engine is not None and "engine.throws[1]" not in machine.stated:
         yield from _doubtful_order(machine.engine.layout)
+
+
+def _impossible(results: Results) -> Iterator[Notice]:
+    """Yield a notice for each efficiency above 1, and for what a test gives below 0."""
+    low, reported = 0.0 if results.machine.test is not None else -math.inf, set[str]()
+    for key in (*_POSITIVE, *_SHARES):
+        value = results.summary.get(key, 0.0)
+        if value < low or (key in _SHARES and value > 1 + _ZERO):
+            made_of = tuple(in_order([results.trace[key]]))
+            paths = [known.node.path for known in made_of if isinstance(known.node, Input)]
+            keys = [path for path in dict.fromkeys(paths) if path in results.machine.stated]
+            # what follows from something impossible is so too
+            if reported.isdisjoint(known.key for known in made_of):
+                yield Notice("impossible", {"quantity": key, "value": value, "keys": ", ".join(keys[:6])})
+            reported.add(key)
 
 
 def _outside(usual: _Range, value: float | None, machine: Machine) -> Iterator[Notice]:

@@ -118,14 +118,9 @@ def test_values(values: Values) -> dict[str, tuple[float, ...]]:
     """Return what a test bed measured by key, defaults included. [SI]"""
     table, stated = values["test"], {}
     for key in table.table.keys:
-        value = table[key]
-        if value is not None:
-            numbers = value if isinstance(value, list) else [value]
-            stated[key] = tuple(
-                number.value if isinstance(number, MeasuredValue) else float(number)
-                for number in numbers
-                if number is not None
-            )
+        numbers = table[key] if isinstance(table[key], list) else [table[key]]
+        if None not in numbers:
+            stated[key] = tuple(item.value if isinstance(item, MeasuredValue) else float(item) for item in numbers)
     return stated
 
 
@@ -151,7 +146,7 @@ def build_test(values: Values, reader: Reader) -> Machine | None:
     try:
         analyse_test(machine)
     except CrankworkError as error:
-        reader.add_error("test", error.args[0])
+        reader.add_error(getattr(error, "key", "test"), error.args[0])
         return None
     return machine
 

@@ -724,7 +724,8 @@ _TESTED: dict[Any, tuple[str, ...]] = {
     _WARMER: ("coolant_rise", "exhaust_rise"),
     Quantity(("pressure_by_velocity",), 0.0, 1e6): ("mechanical_loss_slope",),
     Quantity(("pressure_by_square_velocity",), 0.0, 1e5): ("mechanical_loss_square",),
-    Number(0.0, 1.0): ("mechanical_loss_share", "mechanical_efficiency", "discharge_coefficient"),
+    Number(0.0, 1.0): ("mechanical_loss_share",),
+    Number(0.0, 1.0, above=True): ("mechanical_efficiency", "discharge_coefficient"),
 }  # fmt: skip
 TEST = TableSpec("test", {
     "cylinders": KeySpec(Number(1, MOST_CYLINDERS, whole=True)),

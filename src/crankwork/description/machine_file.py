@@ -306,6 +306,10 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
 
             solved += multi_cylinder_engine(solved[0]).cylinders[1:]
         add_questions(itertools.chain.from_iterable(cylinder.notices for cylinder in solved), values, reader)
+        if machine.test is not None:
+            from crankwork.analysis.analyse import analyse  # noqa: PLC0415 - few engines have a test
+
+            analyse(machine, [0.0])
     except DiagramError as error:
         reader.add_error(error.key, in_file(error.key, error.args[0], values))
     except CrankworkError as error:

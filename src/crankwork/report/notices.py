@@ -40,7 +40,7 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
         else:
             # pressure steps are the only values with a unit of their own, MPa
             shown[key] = number(value / 1e6 if key == "step" else value, language, digits=5)
-    if code in ("implausible", "implausible_own", "law_jump"):
+    if code in ("implausible", "implausible_own", "impossible", "law_jump"):
         key = str(values["quantity"])
         numbers = {name: displayed(key, float(values[name])) for name in _IN_UNIT if name in values}
         shown |= {name: number(value, language) for name, value in numbers.items()}

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import Any
+
 import numpy as np
 
 from crankwork.errors import CrankworkError
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import FORMULAS, Value, formula
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import piston_area, swept_volume
-from crankwork.locale import ErrorMessage
 from crankwork.notation import ARGUMENTS
 from crankwork.working_cycle import engine_size
 from crankwork.working_cycle.charge import charge_density
 
+# what stated values of the same thing may differ by [-]
+_SAME = 1e-6
 _TEXT, _AIR = "heywood_1988, ch. 2", "heywood_1988, ch. 13"
 # keys of the table of a test that are no quantities: those that they state
 MEASURED = {
@@ -197,7 +203,7 @@ _OTHERS: dict[tuple[str, str], dict[str, str]] = {
 
 
 def work_test(worked: Calculation, pi: float) -> None:
-    """Work everything that follows from what is known of a test; raise if nothing does.
+    """Work everything that follows from what is known of a test.
 
     `worked`: has the inputs; takes the results.
     """
@@ -211,18 +217,44 @@ def work_test(worked: Calculation, pi: float) -> None:
     before = -1
     while len(worked.found) != before:
         before = len(worked.found)
-        for rule in _RULES:
-            function, use = rule if isinstance(rule, tuple) else (rule, "")
-            entry, other = FORMULAS[function.__name__], _OTHERS.get((function.__name__, use), {})
-            quantity = other.get("", entry.quantity)
-            taken = {name: other.get(name, ARGUMENTS[name].quantity) for name in entry.arguments if name != "pi"}
+        for function, quantity, taken, constants in _rules(pi):
             if quantity not in worked.known and all(key in worked.known for key in taken.values()):
-                operands = {name: worked[key] for name, key in taken.items()}
-                worked(function, quantity, **operands, **({"pi": pi} if "pi" in entry.arguments else {}))
-    if not worked.found:
-        raise CrankworkError(ErrorMessage("test_nothing"))
+                worked(function, quantity, **{name: worked[key] for name, key in taken.items()}, **constants)
     if "heat_supplied" in worked.found and "effective_power" in worked.known:
         _balance_heat(worked)
+
+
+def _rules(pi: float) -> Iterator[tuple[Callable[..., Any], str, dict[str, str], dict[str, float]]]:
+    """Yield formulas with the quantity that each gives here, those that its arguments are, and pi if it takes that."""
+    for rule in _RULES:
+        function, use = rule if isinstance(rule, tuple) else (rule, "")
+        entry, other = FORMULAS[function.__name__], _OTHERS.get((function.__name__, use), {})
+        taken = {name: other.get(name, ARGUMENTS[name].quantity) for name in entry.arguments if name != "pi"}
+        yield function, other.get("", entry.quantity), taken, {"pi": pi} if "pi" in entry.arguments else {}
+
+
+def contradictions(worked: Calculation, pi: float) -> Iterator[tuple[TracedValue, TracedValue]]:
+    """Yield what is known with the other value that the rest of what is known gives it."""
+    # both sides of a piston have more than one mean pressure
+    one_sided = {"indicated_power", "indicated_mean_pressure"} if "crank_side_pressure" in worked.known else set[str]()
+    for function, quantity, taken, constants in _rules(pi):
+        known = worked.known.get(quantity)
+        skipped = one_sided and {quantity, *taken.values()} >= one_sided
+        if skipped or known is None or known.is_absent or not worked.known.keys() >= {*taken.values()}:
+            continue
+        with suppress(CrankworkError):
+            operands = {name: worked[key] for name, key in taken.items()}
+            other = worked.again("")(function, quantity, **operands, **constants)
+            # cycles may be missed, but not added
+            is_missed = quantity == "working_cycle_rate" and known.value < other.value
+            if abs(other.value - known.value) > _SAME * abs(known.value) and not is_missed:
+                yield known, other
+
+
+def missing(worked: Calculation, quantity: str) -> tuple[str, ...]:
+    """Return the fewest quantities that something would follow from beside a known one."""
+    uses = [set(taken.values()) for _, _, taken, _ in _rules(0.0) if quantity in taken.values()]
+    return min((tuple(sorted(use - worked.known.keys())) for use in uses), key=len, default=())
 
 
 def _balance_heat(worked: Calculation) -> None:
