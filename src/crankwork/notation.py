@@ -500,7 +500,7 @@ ARGUMENTS: dict[str, Argument] = {
     "V_fuel": Argument("fuel_flow"),
     "rho_fuel": Argument("fuel_density"),
     "G_air": Argument("gas_mass_flow"),
-    "C_d": Argument("discharge_coefficient"),
+    "C_d": Argument("orifice_coefficient"),
     "d_orifice": Argument("orifice_diameter"),
     "dp_orifice": Argument("orifice_drop"),
     "G_cool": Argument("coolant_rate"),

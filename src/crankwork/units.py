@@ -272,7 +272,9 @@ _UNCHANGED = ("deg", "degC", "rpm", "Hz")
 
 # "ratio" has no unit; the report chooses whether a fraction is shown in per cent.
 EXAMPLES = {
-    dimension: {"speed": "2300 rpm", "temperature": "293 K"}.get(dimension, f"30 {rows[0][1].split()[0]}")
+    dimension: {"speed": "2300 rpm", "temperature": "293 K", "density": "1000 kg/m3"}.get(
+        dimension, f"30 {rows[0][1].split()[0]}"
+    )
     for dimension, rows in _SPELLINGS.items()
 }
 
@@ -331,6 +333,7 @@ def parse(
     fits = unit is not None and (unit.dimension in dimensions or is_weight)
     wanted = tuple(_dimension(dimension) for dimension in dimensions)
     known = ", ".join(spelling for dimension in dimensions for spelling in spellings(dimension))
+    known += ", °C" * ("temperature" in dimensions)
     if "," in match["number"] and not decimal_comma:
         point = f"{number} {name if fits else example.split()[1]}"
         if fits or name is None:
@@ -378,6 +381,12 @@ def _other_alphabet(name: str) -> str:
     return next((unit for table in (TO_LATIN, _TO_CYRILLIC) if (unit := known_unit(name.translate(table)))), "")
 
 
+def _kept(name: str) -> tuple[int, str, str]:
+    """Return what a slip of the pen does not change: how many units are multiplied, those below, and powers."""
+    above, _, below = _plain(name).partition("/")
+    return above.count("*"), below, "".join(re.findall(r"\d", above))
+
+
 def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> ErrorMessage:
     rows = [names for dimension in dimensions for _, names in _SPELLINGS[dimension]]
     all_spellings = [spelling for names in rows for spelling in names.split()]
@@ -385,6 +394,14 @@ def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values:
     near = same if len(name) > 2 or name.isupper() else []
     # one or two letters are close to anything
     near = near or (difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else [])
+    # a slip of the pen keeps the letters; what stands behind a unit has a meaning, as in `barg` and `Nmm`
+    near = [unit for unit in all_spellings if len(name) > 2 and sorted(unit) == sorted(name)][:1] or [
+        unit
+        for unit in near
+        if _kept(name.lower()) == _kept(unit.lower()) and not re.fullmatch(rf"{re.escape(unit)}[^s]", name)
+    ]
+    if "temperature" in dimensions and name.translate(TO_LATIN).upper() in {"C", "F"}:
+        near = [f"°{name.translate(TO_LATIN).upper()}"]
     mixed = _other_alphabet(name)
     if mixed in all_spellings:
         return ErrorMessage("unit_look_alike", unit=_short(name), nearest=f"{number} {mixed}")

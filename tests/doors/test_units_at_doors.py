@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import crankwork as package
+from crankwork import units
 from crankwork.description.schema import NumberOr
 from crankwork.description.value_types import Number, Quantity, Reader
 from crankwork.studio.session import Session
@@ -104,6 +105,17 @@ def test_other_spellings_per_second_are_asked_about_too(unit):
     with pytest.raises(package.InputError, match="radians or revolutions") as raised:
         description.machine()
     assert LINES in str(raised.value)
+
+
+@for_each(("text", "dimension", "nearest"), [
+    ("3 N*m/deg", "torsional_stiffness", ""), ("3 MJ/m3", "specific_energy", ""), ("3 bar g", "pressure", ""),
+    ("3 barg", "pressure", ""), ("3 Nmm", "torque", ""), ("3 kg*m3", "inertia", ""), ("3 rmp", "speed", "3 rpm"),
+    ("27 C", "temperature", "27 °C"), ("27 С", "temperature", "27 °C"), ("3 inches", "length", "3 inch"),
+])  # fmt: skip
+def test_a_suggested_unit_keeps_the_meaning(text, dimension, nearest):
+    with pytest.raises(ValueError, match="not a unit known") as told:
+        units.parse(text, (dimension,))
+    assert (f'did you mean "{nearest}"' if nearest else "known here; ") in str(told.value.args[0])
 
 
 @for_each(("text", "nearest"), [("3000 RPM", "3000 rpm"), ("50 RAD/S", "50 rad/s")])

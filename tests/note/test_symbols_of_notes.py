@@ -5,17 +5,22 @@ from __future__ import annotations
 import re
 from collections import Counter, defaultdict
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+import crankwork
 from crankwork.formula.calculation_lines import FormulaLine, symbols_of
 from crankwork.formula.expression import Formula, symbol
+from crankwork.formula.traced_value import in_order
 from crankwork.notation import ARGUMENTS
 from crankwork.note.document import Equation, Math, Note, Table
 from crankwork.note.equations import equation_symbol, own_key, printed_equation, value_symbol
 from crankwork.note.layout import Upright
 from crankwork.note.symbols import symbol_box
+from crankwork.note.wording import Words
 from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import use_numbers
 from crankwork.report.display import link_numbers
 from crankwork.report.display import symbol as key_symbol
@@ -23,6 +28,7 @@ from each import for_each
 from note.built import SOME, broken, looked_at, note, schools, source
 from notes import as_numbered, blocks, nomenclature, printed, value_rows
 
+ROOT = Path(__file__).parents[2]
 OTHERS = (
     "spark-engine: exact", "v8-diesel", "radial-five", "narrow-v6: textbook", "two-stroke", "atkinson", "beta-stirling",
     "opposed-pistons", "excavator-boom", "parallelogram", "press-start",
@@ -229,3 +235,24 @@ def test_what_is_put_into_the_cycle_stands_in_the_table_of_its_data(name):
     assert (rows["C"][2], rows["a_m"][2:]) == ("0,855", ("0,034", "МПа"))
     assert rows["C"][0].endswith("*")
     assert ("ξ_вп" in rows) == (name == "radial-five")
+
+
+@pytest.mark.elsewhere
+@for_each("path", [
+    "examples/compressor-stages", "examples/triplex-pump", "examples/vibrating-crankshaft", "tests/machines/burning",
+    "tests/machines/engine-test", "tests/machines/card-test", "tests/machines/stages-by-size",
+])  # fmt: skip
+def test_no_english_word_of_an_owner_stands_in_a_symbol(path):
+    file = ROOT / f"{path}.toml"
+    results, text = crankwork.analyse(crankwork.load(file)), file.read_text("utf-8")
+    is_named = "piston_displacement" not in results.columns
+    keys = {known.key for known in in_order(results.trace.values()) if known.key}
+    # pins of a piston have their names at all times
+    keys = {key for key in keys if not key.endswith("_pin")}
+    for language in ("ru", "vi"):
+        words = Words(language)
+        for key in keys:
+            for word in re.findall(r"[A-Za-z]{3,}", key_of(key).owner):
+                shown = {value_symbol(key, language)} | ({words.symbol(key)} - {""} if is_named else set())
+                below = ",".join(one.partition("_")[2] for one in shown)
+                assert word in text or word in ("min", "max") or word not in below, (language, key, shown)

@@ -183,8 +183,19 @@ class _Compressor:
     def _check(self, index: int, low: float, high: float) -> None:
         """Raise for a stage that does not raise the pressure, or a temperature behind it that no polytrope has."""
         if not 0 < low < high:
-            place = "discharge" if index + 1 == self.count else "between"
-            raise DiagramError(f"stages.{place}", ErrorMessage("stages_rise", number=index + 1, low=low / 1e6))
+            first, last = (self._given(name).value for name in ("suction", "discharge"))
+            stated, code = {"low": low / 1e6, "high": high / 1e6, "number": index + 1}, "stages_rise"
+            if last <= first:
+                place, code, stated = "discharge", "stages_back", {"low": first / 1e6, "high": last / 1e6}
+            elif "between" in self.stages.numbers:
+                place = "between"
+            else:
+                place, code = "temperatures", "stages_apart"
+            before = self.values[f"discharge_pressure.{index}"].value if index else low
+            if before < high and low < before:
+                place, code = "losses", "stages_loss"
+                stated = {"loss": (before - low) / 1e6, "low": before / 1e6, "number": index + 1}
+            raise DiagramError(f"stages.{place}", ErrorMessage(code, **stated))
         hot, cold = self._given("discharge_temperature"), self._given("temperature").value
         if not index and not hot.is_absent and not cold <= hot.value < cold * high / low:
             message = ErrorMessage("valves_temperature", low=cold, high=cold * high / low)
@@ -218,7 +229,7 @@ class _Compressor:
             warm = self.of("suction_temperature", other)
             if not warm.is_absent and warm.value != cold.value:
                 ratio = formulas.cooled_ratio(ratio, warm, cold, self.of("compression_exponent", index), self._z)
-        return ratio.named(f"stage_pressure_ratio.best_{index + 1}")
+        return ratio.named(f"stage_pressure_ratio.best.{index + 1}")
 
     def _expansion(self, index: int) -> TracedValue:
         own = self.of("expansion_exponent", index)
@@ -266,7 +277,7 @@ class _Compressor:
     def _of_chambers(self, index: int) -> TracedValue:
         """Return what the chambers of a stage draw in."""
         flows = [(self.drawn or {})[f"inlet_flow.{name}"] for name in self.stages.chambers[index]]
-        return total(f"stage_flow.drawn_{index + 1}", flows)
+        return total(f"stage_flow.drawn.{index + 1}", flows)
 
     def _by_clearance(self, index: int) -> TracedValue:
         """Return the volumetric efficiency by the clearance of a stage, absent without one."""
@@ -339,7 +350,7 @@ class _Compressor:
             else:
                 swept = self.of("swept_flow", index)
                 filled = ((1 + clearance) * swept).named(f"filled_flow{owner}")
-                taken = self._power(index, filled, high, low).named(f"stage_power.compression_{index + 1}")
+                taken = self._power(index, filled, high, low).named(f"stage_power.compression.{index + 1}")
                 back = formulas.returned_power(clearance, swept, exponents[1], low, high)
                 power = taken - self._keep(f"returned_power{owner}", back)
             powers.append(self._keep(f"stage_power{owner}", power))

@@ -640,7 +640,7 @@ VALVES = TableSpec("valves", {
     "temperature": KeySpec(_KELVIN),
     "discharge_temperature": KeySpec(_KELVIN, instead_of=("compression_exponent",), only={"temperature": ()}),
     "gas_constant": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), only={"temperature": ()}),
-    "free_pressure": KeySpec(_OPENING, only={"temperature": (), "free_temperature": ()}),
+    "free_pressure": KeySpec(_OPENING, only={"temperature": (), "free_temperature": ()}, example='"0.1 MPa"'),
     "free_temperature": KeySpec(_KELVIN, only={"temperature": (), "free_pressure": ()}),
     "delivered": KeySpec(Quantity(("volume_rate",), 0.0, 1e6, above=True)),
 })  # fmt: skip

@@ -211,7 +211,7 @@ _OF_STAGES = {
     "final_temperature": KeySpec(_TEMPERATURE.kind, only={"heat_capacity": ()}),
     "gas_constant": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), only={"temperature": ()}),
     "heat_capacity": KeySpec(Quantity(("specific_heat",), 1.0, 1e6), only=_OF_HEAT),
-    "free_pressure": KeySpec(_ABSOLUTE, only={"temperature": (), "free_temperature": ()}),
+    "free_pressure": KeySpec(_ABSOLUTE, only={"temperature": (), "free_temperature": ()}, example='"0.1 MPa"'),
     "free_temperature": KeySpec(_TEMPERATURE.kind, only={"temperature": (), "free_pressure": ()}),
     "water_rise": KeySpec(Quantity(("temperature",), 0.0, 1e3, above=True), instead_of=("water_flow",),
                       only={"heat_capacity": ()}),

@@ -41,6 +41,8 @@ _PARTS = frozenset((
     "guide", "shaking", "weight", "arm", "arms", "place", "carried", "load", "both", "normal",
     "start", "free", "preload", "piece", "end", "from", "damper",
 ))  # fmt: skip
+# what belongs to parts of a balance or to numbered stages, never to what a file names
+_OF_PARTS = ("heat_share", "stage_pressure_ratio", "stage_flow", "stage_power")
 _WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 _NUMBER = re.compile(r"(?P<sign>−?)(?:(?P<mantissa>[\d.,]+)(?:·|$))?(?:10(?P<exponent>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+))?")
 _LEVEL = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
@@ -163,6 +165,7 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     owner, *parts = shown_name.split(" ", 1) if shown_name.startswith("S ") else shown_name.split(".")
     marks = texts("marks", language)
     crank = {"crank": link_label("crank", language)}
+    owner = marks.get(owner, owner) if kind in _OF_PARTS else owner
     names = [crank.get(owner, owner), *(marks[part] if part in _PARTS else crank.get(part, part) for part in parts)]
     name = subscript(".".join(names))
     if "_i" in shown and not kind.startswith("indicated"):

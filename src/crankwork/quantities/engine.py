@@ -217,6 +217,7 @@ CYCLE = (
     Quantity("fuel_flow", "m3/min", "Volume of fuel in a unit of time."),
     Quantity("fuel_density", "kg/m3", "Density of the fuel."),
     Quantity("orifice_diameter", "mm", "Diameter of the orifice of an air box."),
+    Quantity("orifice_coefficient", "", "Flow through the orifice of an air box over that without losses."),
     Quantity("orifice_drop", "MPa", "Drop of pressure across the orifice of an air box."),
     Quantity("air_fuel_ratio", "", "Air over fuel by mass."),
     Quantity("coolant_rate", "kg/h", "Mass of coolant in a unit of time."),

@@ -25,6 +25,7 @@ _TEXT, _AIR = "heywood_1988, ch. 2", "heywood_1988, ch. 13"
 MEASURED = {
     "cylinders": "cylinder_count", "strokes": "strokes_per_cycle", "air_rate": "gas_mass_flow",
     "air_pressure": "charge_pressure", "air_temperature": "charge_temperature", "peak_pressure": "cylinder_pressure",
+    "discharge_coefficient": "orifice_coefficient",
 }  # fmt: skip
 # what may be left out, with its neutral value
 _NEUTRAL = {
