@@ -121,10 +121,11 @@ def _vibration(material: Material) -> Iterator[Block]:
     for kind in known if is_damped else ():
         own = [key for key in listing.columns if key_of(key).quantity == kind]
         best = max(own, key=lambda key: float(np.max(listing.columns[key])))
-        at = int(np.argmax(listing.columns[best]))
-        amount = words.amount(float(listing.columns[best][at]), key_unit(best), digits=4)
-        where = words.amount(float(speed[at]), "rpm", digits=4)
-        parts += ["; " if parts else "", Math(words.symbol(best)), f" = {amount} ({where})"]
+        peak = int(np.argmax(listing.columns[best]))
+        amount = words.amount(float(listing.columns[best][peak]), key_unit(best), digits=4)
+        where = words.amount(float(speed[peak]), "rpm", digits=4)
+        name = link_label(key_of(best).owner, words.language)
+        parts += ["; " if parts else "", Math(words.symbol(kind)), f" = {amount} ({name}, {where})"]
     low, high = (words.amount(float(end), "rpm", digits=4) for end in (speed[0], speed[-1]))
     yield words.paragraph("torsion_response", low=low, high=high)
     if parts:
