@@ -330,7 +330,7 @@ def test_a_figure_of_a_shaft_with_one_crankpin_does_not_say_of_which() -> None:
     for name in ("v-two", "twin"):
         results = crankwork.analyse(crankwork.read(Path(__file__).parent / f"machines/{name}.toml"))
         titles.append(material.Material(results, NoteOptions(full=True, figures=False))._title("crankpin_polar"))
-    assert titles[1] == f"{titles[0]}, crankpin 1"
+    assert titles[1] == f"{titles[0]}, crankpin\u00a01"
 
 
 def test_columns_of_a_sheet_are_equally_wide() -> None:

@@ -223,6 +223,7 @@ _IMPERIAL = {
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
     "N*m/rad": "lbf*in/rad", "cm4": "in4",
     "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
+    "l/s": "ft3/min",
     "m3/min": "ft3/min", "MPa/deg": "psi/deg", "MPa/mm": "psi/in", "J/deg": "ft*lbf/deg", "degC": "degF",
 }  # fmt: skip
 

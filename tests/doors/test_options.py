@@ -66,7 +66,7 @@ WRONG_COMMANDS = [
     (("reprot", "my.toml"), '"reprot": there is no such command; did you mean report?'),
     (("my.toml",), "my.toml: a command comes first; write crankwork check my.toml, or"),
     (("--lang", "ru", "run", "my.toml"), "--lang: параметр команды; запишите его после неё, например crankwork run"),
-    (("new", "steam"), 'there is no template "steam"; there are: compressor, crank-shaper, engine, four-bar, '),
+    (("new", "steam"), 'there is no template "steam"; there are: balancing, chebyshev, compressor, crank-shaper, '),
     (("new", "../../engine"), "there is no template"),
     (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
     (("check",), "FILE: is missing; write it after the command"),

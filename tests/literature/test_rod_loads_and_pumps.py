@@ -11,7 +11,9 @@ import math
 
 import pytest
 
+from crankwork import InputError
 from crankwork.analysis import Results
+from crankwork.analysis.assumptions import assumptions
 from each import for_each
 from machine_texts import analysed
 
@@ -282,3 +284,35 @@ def test_subramanya_16_38() -> None:
     assert found["pump_slip.head"] == pytest.approx(0.0254215830422, rel=1e-9)
     assert found["discharge_coefficient.head"] == pytest.approx(0.974578416958, rel=1e-11)
     assert found["motor_power"] == pytest.approx(779.311327631, rel=1e-11)
+
+
+def test_each_side_that_separates_is_told_with_its_speed() -> None:
+    pipes = "\n".join(f'{side}_pipe = {{ length = "{long} m", diameter = "50 mm" }}'
+                      for side, long in (("suction", 5), ("discharge", 12)))  # fmt: skip
+    # after the page 27.0 rpm of the suction; the delivery has sqrt(23/12 * 5/5.5) of it
+    limits = {"suction": 26.9982331852, "discharge": 26.9982331852 * math.sqrt(23 / 5.5 * 5 / 12)}
+    for speed in (26.0, 30.0, 36.0):
+        told = {notice.code: notice.values for notice in pump(pipes, speed).notices}
+        assert {code for code in told if "separation_" in code} == {
+            f"separation_{side}" for side, most in limits.items() if speed > most
+        }
+        for side, most in limits.items():
+            if speed > most:
+                assert told[f"separation_{side}"]["most"] == pytest.approx(most, rel=1e-9)
+    assert "separation" in told
+
+
+@for_each(("more", "place"), [
+    ('[vessels]\nv.chambers = ["water", "water"]', r"vessels\.v\.chambers\[2\]"),
+    ('[vessels]\nv.chambers = ["water"]\nu.chambers = ["water"]', r"vessels\.u\.chambers\[1\]"),
+])  # fmt: skip
+def test_a_side_of_a_chamber_has_one_vessel(more: str, place: str) -> None:
+    with pytest.raises(InputError, match=place):
+        pump(more)
+
+
+def test_the_pipe_of_a_vessel_is_told_to_stand_apart() -> None:
+    found = pump("""[vessels]
+    a.chambers = ["water"]
+    b = { chambers = ["water"], side = "suction", length = "9 m", diameter = "80 mm", friction = 0.02 }""")
+    assert [item.names for item in assumptions(found) if item.code == "vessel_pipes"] == [("b",)]

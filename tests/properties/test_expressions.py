@@ -44,7 +44,7 @@ def _random_arguments(formula: Formula, size: int | None = None) -> dict[str, An
     ranges = {"e": (0.02, 0.18), "l": (1.2, 2.0), "l_a": (1.2, 2.0), "lam_m": (1.5, 3.0)}
     ranges |= {"l_i": (1.2, 2.0), "l_k": (1.2, 2.0), "d_sq": (0.7, 0.9), "e_s": (0.1, 0.6)}
     # a sector is large enough for its moment, and a pendulum longer than its arm
-    ranges |= {"R_o": (2.0, 3.0), "Q_p": (1e-3, 4e-3), "L_p": (1.2, 2.0)}
+    ranges |= {"R_o": (2.0, 3.0), "Q_p": (1e-3, 4e-3), "L_s": (1.2, 2.0)}
     generator = np.random.default_rng(sum(map(ord, formula.name)))
     return {name: generator.uniform(*ranges.get(name, (0.1, 0.9)), size) for name in formula.arguments}
 

@@ -254,3 +254,27 @@ def test_what_contradicts_itself_is_refused(combustion, mistake, found):
     degrees, pressure, _ = made(step=1.0)
     with pytest.raises(crankwork.errors.InputError, match=mistake):
         found(degrees, pressure, combustion)
+
+
+@for_each(("shift", "code"), [(-180, "burning_negative"), (-90, "burning_negative"), (180, "burning_unended"),
+                          (45, "wiebe_unsettled"), (360, "burning_negative")])  # fmt: skip
+def test_heat_of_a_wrong_dead_centre_has_no_fit_and_says_why(shift, code, found):
+    degrees, pressure, _ = made()
+    results = found(degrees, pressure, measured=f', shift = "{shift} deg"')
+    told = [notice.code for notice in results.notices if notice.code.startswith(("wiebe", "burning_"))]
+    assert told == ["burning_mass", code]
+    assert not any(key.endswith(".fit") for key in results.summary)
+    # angles of heat that never ends, or is none, mean nothing
+    assert any(key.startswith("burnt_angle") for key in results.summary) == (code == "wiebe_unsettled")
+
+
+@for_each("shift", [180, 90, -90, -180, 45, -60, 270, 300])
+def test_the_advised_shift_counts_the_one_in_force(shift, found):
+    degrees, pressure, _ = made()
+    far = next(n for n in found(degrees, pressure, measured=f', shift = "{shift} deg"').notices if n.code == "peak_far")
+    assert far.values["shift"] == 0.0
+
+
+def test_a_wiebe_function_without_an_end_is_none():
+    degrees = np.linspace(0.0, 100.0, 101)
+    assert wiebe_fit(degrees, np.exp(degrees / 10), (10.0, 50.0)) is None

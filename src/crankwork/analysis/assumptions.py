@@ -106,6 +106,9 @@ def _left_out(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Ass
     masses = machine.masses
     if masses is not None and masses.rod_small_end and not masses.rod_inertia_excess and machine.method.rod == "rigid":
         yield Assumption("two_masses", ("rod.inertia",))
+    piped = tuple(name for name, vessel in machine.vessels.items() if vessel.pipe is not None)
+    if piped:
+        yield Assumption("vessel_pipes", tuple(f"vessels.{name}.length" for name in piped), names=piped)
     yield from _without_mass(results, stated)
 
 

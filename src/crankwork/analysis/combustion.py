@@ -49,6 +49,8 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 _FEWEST = 5
 # over which the heat is averaged where burning begins and ends [deg]
 _AVERAGED = 4.0
+# before the end of the closed period [deg], and share of the heat that is released there if burning does not end
+_LATE, _UNENDED = 10.0, 0.1
 _VARIATIONS = {
     "indicated_mean_pressure": "mean_pressure_variation",
     "cylinder_pressure_max": "peak_pressure_variation",
@@ -95,7 +97,8 @@ def with_combustion(results: Results) -> Results:
     over = CycleInterpolant(columns, CrankGrid.from_degrees, closed.cycle)
     values = over.extremes("pressure_rise", "gross_heat_rate")
     values = {key: value for key, value in values.items() if "_max" in key} | _totals(closed, columns, space)
-    values |= _burning(closed, columns)
+    burning, left_out = _burning(closed, columns)
+    values |= burning
     listings = {**results.listings}
     if data.windows:
         listings["fitted_polytropes"] = _polytropes(data, solved)
@@ -107,7 +110,7 @@ def with_combustion(results: Results) -> Results:
     checks = {"first_law": abs(residual) / max(abs(values["heat_released"].value), 1e-300)}
     return replace(
         results,
-        notices=(*results.notices, *_taken(data)),
+        notices=(*results.notices, *_taken(data), *left_out),
         columns={**results.columns, **Program(columns)(results.grid)},
         summary={**results.summary, **{key: value.value for key, value in values.items()}},
         checks={**results.checks, **checks},
@@ -281,10 +284,22 @@ def _totals(closed: _Closed, columns: Mapping[str, TracedValue], space: WorkingS
     return result | {"first_law_residual": TracedValue(ProcedureValue(left, "integral", heat))}
 
 
-def _burning(closed: _Closed, columns: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the angles at which shares of the heat are released, and the nearest Wiebe function."""
+def _burning(closed: _Closed, columns: Mapping[str, TracedValue]) -> tuple[dict[str, TracedValue], list[Notice]]:
+    """Return the angles at which shares of the heat are released and the nearest Wiebe function, or why there is none.
+
+    Shares of a heat that is not positive, or that still grows where the closed period ends, tell nothing.
+    """
     fraction, heat, degrees = columns["burnt_fraction"], columns["gross_heat"], closed.knots
     over = CycleInterpolant({"": fraction}, CrankGrid.from_degrees, closed.cycle)
+    released = Program({"": heat})(CrankGrid.from_degrees(degrees))[""]
+    top, burning = int(np.argmax(released)), closed.data.burning
+    ends = burning or (closed.data.start, closed.data.end)
+    gained, late = (
+        float(np.diff(np.interp((angle, ends[1]), degrees, released))[0]) for angle in (ends[0], ends[1] - _LATE)
+    )
+    if gained <= 0 or (burning is None and late > _UNENDED * gained):
+        code = "burning_unended" if gained > 0 else "burning_negative"
+        return {}, [Notice(code, {"heat": gained, "angle": ends[1]})]
     values = dict[str, TracedValue]()
     for share in SHARES:
         crossings = over.crossings("", share / 100)
@@ -295,16 +310,15 @@ def _burning(closed: _Closed, columns: Mapping[str, TracedValue]) -> dict[str, T
                 f"burnt_angle.{share}",
             )
     if len(values) < len(SHARES):
-        return values
+        return values, []
     first, middle, last = (math.degrees(value.value) for value in values.values())
-    released = Program({"": heat})(CrankGrid.from_degrees(degrees))[""]
-    end = (
-        int(np.argmax(released))
-        if closed.data.burning is None
-        else int(np.searchsorted(degrees, closed.data.burning[1]))
-    )
-    kept = slice(0, max(end + 1, _FEWEST))
+    end_of_it = top if burning is None else int(np.searchsorted(degrees, burning[1]))
+    kept = slice(0, max(end_of_it + 1, _FEWEST))
     fit = wiebe_fit(degrees[kept], released[kept], (first - (middle - first) / 2, 2 * (last - first)))
+    if fit is None:
+        return values, [Notice("wiebe_unsettled", {})]
+    if fit.heat <= 0 or fit.duration > closed.data.end - closed.data.start:
+        return values, [Notice("wiebe_odd", {"heat": fit.heat, "duration": fit.duration})]
     parameters = {
         "burning_start": math.radians(fit.start),
         "burning_duration": math.radians(fit.duration),
@@ -316,7 +330,7 @@ def _burning(closed: _Closed, columns: Mapping[str, TracedValue]) -> dict[str, T
         f"{key}.fit": TracedValue(ProcedureValue(value, "fit", (heat,)), f"{key}.fit")
         for key, value in parameters.items()
     }
-    return values | wiebe
+    return values | wiebe, []
 
 
 def _polytropes(data: BurningAnalysis, solved: PreparedCylinder) -> Listing:

@@ -180,7 +180,7 @@ def _crossheads(values: Values, reader: Reader) -> dict[str, float]:
 
 def _vessels(values: Values, chambers: Mapping[str, Chamber], reader: Reader) -> dict[str, Vessel]:
     """Return the vessels by name; report unknown chambers, and those that pump no liquid."""
-    vessels = dict[str, Vessel]()
+    vessels, taken = dict[str, Vessel](), dict[tuple[str, str], str]()
     for name, table in (values["vessels"] or {}).items():
         for number, chamber in enumerate(table["chambers"], start=1):
             place = f"vessels.{name}.chambers[{number}]"
@@ -190,6 +190,8 @@ def _vessels(values: Values, chambers: Mapping[str, Chamber], reader: Reader) ->
                 reader.add_error(place, message)
             elif known.valves is None or known.valves.density is None:
                 reader.add_error(place, ErrorMessage("vessel_gas", name=chamber))
+            elif (other := taken.setdefault((chamber, table["side"]), place)) != place:
+                reader.add_error(place, ErrorMessage("vessel_twice", name=chamber, other=other))
         pipe = table.made(Pipe) if "length" in table else None
         vessels[name] = Vessel(tuple(table["chambers"]), table["side"], pipe)
     return vessels

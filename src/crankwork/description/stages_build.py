@@ -78,7 +78,7 @@ def stage_valves(values: Values, method: Method, reader: Reader) -> tuple[Stages
         if name not in known:
             reader.add_error(place, ErrorMessage("absent_chamber", name=name, known=", ".join(known) or "–"))
         elif [item for item, _ in named].count(name) > 1:
-            reader.add_error(place, ErrorMessage("chamber_twice", name=name))
+            reader.add_error(place, ErrorMessage("chamber_staged_twice", name=name))
     numbers = {**_numbers(table), "count": (float(len(table["chambers"])),)}
     stages = Stages(numbers, tuple(map(tuple, table["chambers"])))
     crank = Mechanism(Crank(radius=0.0), ())

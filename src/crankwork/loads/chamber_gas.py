@@ -202,7 +202,12 @@ def _behind_pipes(name: str, chamber: Chamber, space: _Space, before: TracedValu
     if boiling is not None and least.value < boiling:
         pressures = {"least": least.value / 1e6, "vapour": boiling / 1e6}
         notices.append(("separation", {"name": name, **pressures, "angle": math.degrees(angle.value)}))
-    return _Piped(pressure, (least, angle, *valves.heads(flow, space.period)), notices)
+    heads, turning = list(valves.heads(flow, space.period)), abs(flow.speed.value)
+    for head in heads:
+        if head.key.startswith("separation_speed") and head.value < turning:
+            speeds = {"most": 30 / math.pi * head.value, "speed": 30 / math.pi * turning}
+            notices.append((f"separation_{head.key.rpartition('.')[2]}", {"name": name, **speeds}))
+    return _Piped(pressure, (least, angle, *heads), notices)
 
 
 def _rates(space: _Space) -> tuple[TracedValue, TracedValue]:

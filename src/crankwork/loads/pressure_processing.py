@@ -109,7 +109,7 @@ def measured_diagram(
         # a wrong sample tells nothing of the dead centre
         smooth = _without_spikes(pressure)
         absolute = smooth if treatment.absolute else smooth + AMBIENT
-        against = contradictions((degrees, absolute), around.volume_at, (cycle, around.top), measured, shift=shift)
+        against = contradictions((degrees, absolute), around, cycle, measured, shift=shift)
         questions = list[NoticeData]()
         if not treatment.is_placed:
             questions += _other_strokes((degrees, absolute), around, cycle, shift)
@@ -166,9 +166,7 @@ def _other_strokes(
             # delivery ends at the dead centre
             end = float(both[0][_end_of(both[1] > least + _DELIVERY * (highest - least))])
             return late, _quarter(-centred(end - centre, period), _QUARTER), False
-        correction = _straightest(both, around.volume_at, (cycle, centre), late)
-        more = _quarter(-late, near) if correction is None else _quarter(correction, 2.0)
-        return late, more, correction is not None
+        return late, *_moved(both, around.volume_at, (cycle, centre), late, near)
 
     mirrored = (-degrees[::-1], pressure[::-1])
     (late, more, is_known), (_, back, is_known_back) = placed(samples), placed(mirrored)
@@ -186,6 +184,14 @@ def _other_strokes(
     angles = {"angle": _in_cycle(late + centre, cycle), "firing": _in_cycle(centre, cycle)}
     code = "measured_strokes" if cycle > _TURN and around.has_strokes else "measured_centre"
     yield code, {**angles, "turned": f"{_wrapped(shift + more):g} deg", "own": own}
+
+
+def _moved(
+    samples: tuple[Array, Array], volume_at: VolumeAt, where: tuple[float, float], late: float, near: float
+) -> tuple[float, bool]:
+    """Return the shift that puts a peak in place, and whether it is by the compression; arguments as below. [deg]"""
+    correction = _straightest(samples, volume_at, where, late)
+    return _quarter(-late, near) if correction is None else _quarter(correction, 2.0), correction is not None
 
 
 def centred(degrees: float, period: float) -> float:
@@ -376,24 +382,25 @@ def _check_vacuum(pressure: Array, measured: MeasuredPressure, key: str) -> None
 
 def contradictions(
     samples: tuple[Array, Array],
-    volume_at: VolumeAt,
-    where: tuple[float, float],
+    around: PressureReference,
+    cycle: float,
     measured: MeasuredPressure,
     *,
     shift: float,
 ) -> Iterator[NoticeData]:
     """Yield notices on peak, work and compression line that contradict what is stated. [deg], [Pa]
 
-    `samples`: crank angles and absolute pressures; `where`: cycle and top dead centre; `shift`: added already.
+    `samples`: crank angles and absolute pressures; `shift`: added already.
     """
-    degrees, pressure = samples
+    (degrees, pressure), volume_at, top = samples, around.volume_at, around.top or 0.0
     loss_angle = measured.treatment.loss_angle
-    cycle, top = where
     peak = float(degrees[np.argmax(pressure)])
     distance = (peak - top + _TURN / 2) % _TURN - _TURN / 2
     if abs(distance) > _NEAR[cycle]:
-        turns = round(distance / (_TURN / 2)) * _TURN / 2
-        yield "peak_far", {"angle": _in_cycle(peak, cycle), "apart": abs(distance), "shift": _wrapped(shift - turns)}
+        # firing is a turn after the beginning of four strokes
+        period, centre = (cycle, top + _TURN) if around.has_strokes else (_TURN, top)
+        more, _ = _moved(samples, volume_at, (cycle, centre), centred(peak - centre, period), _NEAR[cycle])
+        yield "peak_far", {"angle": _in_cycle(peak, cycle), "apart": abs(distance), "shift": _wrapped(shift + more)}
         return
     centre = peak - distance
     if loss_angle is not None:

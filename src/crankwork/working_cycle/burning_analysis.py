@@ -62,12 +62,13 @@ class WiebeFit(NamedTuple):
     scatter: float
 
 
-def wiebe_fit(degrees: Array, heat: Array, first: tuple[float, float]) -> WiebeFit:
+def wiebe_fit(degrees: Array, heat: Array, first: tuple[float, float]) -> WiebeFit | None:
     """Return the Wiebe function nearest to a heat released, by least squares; level and amplitude are free (vibe_1970).
 
-    `first`: start and duration to begin with. [deg]
+    `first`: start and duration to begin with [deg]. None if none is nearest.
     """
     scale = float(np.ptp(heat)) or 1.0
+    widest = np.log([1e4 * float(np.ptp(degrees)), 1e3])
 
     def left(unknowns: Array) -> tuple[Array, Array]:
         """Return what is left, with level and amplitude; of start, and logarithms of duration and exponent plus 1."""
@@ -84,6 +85,8 @@ def wiebe_fit(degrees: Array, heat: Array, first: tuple[float, float]) -> WiebeF
         slopes = np.stack([(left(unknowns + _NUDGE * unit)[0] - residual) / _NUDGE for unit in np.eye(3)], axis=1)
         normal = slopes.T @ slopes
         step = np.linalg.solve(normal + damping * np.diag(np.diag(normal) + 1e-30), -slopes.T @ residual)
+        if np.any(np.abs((unknowns + step)[1:]) > widest):
+            return None
         tried = left(unknowns + step)
         if tried[0] @ tried[0] < residual @ residual:
             is_settled = residual @ residual - tried[0] @ tried[0] <= _SETTLED * (residual @ residual)
@@ -94,6 +97,8 @@ def wiebe_fit(degrees: Array, heat: Array, first: tuple[float, float]) -> WiebeF
             break
         else:
             damping *= 10
+    else:
+        return None
     amplitude = float(parts[1])
     scatter = float(np.sqrt(np.mean(residual**2))) * scale / abs(amplitude)
     return WiebeFit(float(unknowns[0]), float(np.exp(unknowns[1])), float(np.exp(unknowns[2]) - 1), amplitude, scatter)
