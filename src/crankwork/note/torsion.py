@@ -97,6 +97,8 @@ def _torques(material: Material) -> Iterator[Block]:
         key, value = ("harmonic_order", torque.order) if order else ("angular_frequency", torque.frequency)
         amount = words.amount(torque.torque, "N*m", digits=4)
         turns = words.number(value or 0.0) if order else words.amount(value or 0.0, "rad/s", digits=4)
+        if torque.phase:
+            turns += f", {words.amount(torque.phase, 'deg', digits=4)}"
         name, symbol = link_label(torque.disc, words.language), Math(words.symbol("excitation_torque"))
         parts += ["; " if parts else "", f"{name}: ", symbol, f" = {amount}, ", Math(words.symbol(key)), f" = {turns}"]
     if parts:
