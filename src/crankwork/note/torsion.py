@@ -97,6 +97,8 @@ def _torques(material: Material) -> Iterator[Block]:
         key, value = ("harmonic_order", torque.order) if order else ("angular_frequency", torque.frequency)
         amount = words.amount(torque.torque, "N*m", digits=4)
         turns = words.number(value or 0.0) if order else words.amount(value or 0.0, "rad/s", digits=4)
+        if torque.phase:
+            turns += f", {words.amount(torque.phase, 'deg', digits=4)}"
         name, symbol = link_label(torque.disc, words.language), Math(words.symbol("excitation_torque"))
         parts += ["; " if parts else "", f"{name}: ", symbol, f" = {amount}, ", Math(words.symbol(key)), f" = {turns}"]
     if parts:
@@ -121,10 +123,11 @@ def _vibration(material: Material) -> Iterator[Block]:
     for kind in known if is_damped else ():
         own = [key for key in listing.columns if key_of(key).quantity == kind]
         best = max(own, key=lambda key: float(np.max(listing.columns[key])))
-        at = int(np.argmax(listing.columns[best]))
-        amount = words.amount(float(listing.columns[best][at]), key_unit(best), digits=4)
-        where = words.amount(float(speed[at]), "rpm", digits=4)
-        parts += ["; " if parts else "", Math(words.symbol(best)), f" = {amount} ({where})"]
+        peak = int(np.argmax(listing.columns[best]))
+        amount = words.amount(float(listing.columns[best][peak]), key_unit(best), digits=4)
+        where = words.amount(float(speed[peak]), "rpm", digits=4)
+        name = link_label(key_of(best).owner, words.language)
+        parts += ["; " if parts else "", Math(words.symbol(kind)), f" = {amount} ({name}, {where})"]
     low, high = (words.amount(float(end), "rpm", digits=4) for end in (speed[0], speed[-1]))
     yield words.paragraph("torsion_response", low=low, high=high)
     if parts:

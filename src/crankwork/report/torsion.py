@@ -51,7 +51,10 @@ def natural_modes(machine: Drawn) -> Drawing:
             if style is SOLID and a * b < 0 and min(abs(a), abs(b)) > _NODE:
                 paper.dot(*graph.point(x + (other - x) * a / (a - b), 0.0), 2.2, fill="#ffffff", width=0.9)
         for name in names:
-            paper.dot(*graph.point(place[name], shape[name]), 1.6)
+            if abs(shape[name]) < _NODE:
+                paper.dot(*graph.point(place[name], 0.0), 2.2, fill="#ffffff", width=0.9)
+            else:
+                paper.dot(*graph.point(place[name], shape[name]), 1.6)
             if mode == count - 1:
                 _disc_name(paper, graph, place[name], link_label(name, language))
         title = f"{machine.symbol('natural_frequency')[:-1]}_{mode + 1}$ = {machine.number(frequency[mode], 4)}"
