@@ -16,9 +16,9 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "7cf0b2a49e97",
+    "symbols": "0621fcb40afa",
     "formulas": "fe48d7c95bd1",
-    "quantities": "b47e6a265db4",
+    "quantities": "6427b196b7b1",
     "defaults": "56d384bb604c",
 }
 
