@@ -371,12 +371,21 @@ def _idle_point(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
     return "only_volume" if name == "angle" and "points" not in uses and f"{place}.volume" in stated else ""
 
 
+def _idle_school(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    """Return whether there are no corners that a school could round."""
+    cycle = path.removesuffix(".school")
+    corners = stated.get(f"{cycle}.corners", FileInput(None)).value
+    has_timing = any(key.startswith(f"{cycle}.timing.") for key in stated)
+    return "" if corners == "rounded" or (corners is None and has_timing) else "sharp_corners"
+
+
 # why an input may have no effect although it is in the trace, or need not be in it
 _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str]], ...] = (
     (r"motor\.\w+", _idle_motor),
     (r"motor_selection\.\w+", lambda results, *_: "" if _needs_motor(results) else "no_motor_needed"),
     (r".*\.timing\.\w+", lambda results, stated, path: _idle_event(path, stated, results)),
     (_ROUNDED, lambda results, stated, path: _idle_convention(path, stated, results)),
+    (r".*cycle\.school", _idle_school),
     (r"engine\.spacing", _idle_spacing),
     (r"engine\.uneven", _idle_uneven),
     (r"engine\.numbering", _idle_numbering),

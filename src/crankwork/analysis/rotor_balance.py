@@ -17,7 +17,7 @@ from crankwork.cylinders import planes
 from crankwork.cylinders.counterweights import counterweight_moment
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.planes import Arrangement, PlaneMass, Rotor, arrangements
-from crankwork.cylinders.torque import amplitude_of_harmonic
+from crankwork.dynamics.reaction import shaking_force
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import AngleFunction, ProcedureValue, TracedAngle, TracedValue, absent, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -112,7 +112,7 @@ class _Shaft:
         if wanted:
             known = {name: self._vector(name) for name in self._names(wanted)}
             for name, (x, y) in self._opposed(known, "plane_moment", self._planes_of(wanted)).items():
-                self._keep(f"plane_moment.{name}", amplitude_of_harmonic(x, y))
+                self._keep(f"plane_moment.{name}", planes.moment_size(x, y))
                 self._keep(f"plane_angle.{name}", _in_one_turn(x, y))
                 self.summary |= {key: self.trace[key] for key in (f"plane_moment.{name}", f"plane_angle.{name}")}
         for index in (index for word, index in rotor.wanted if word == "size"):
@@ -206,7 +206,7 @@ class _Shaft:
                 for number, place in enumerate(rotor.bearings, start=1)
             }
             for name, vector in self._opposed(vectors, "rotor_unbalance", places).items():
-                force = unbalance_force(amplitude_of_harmonic(*vector).named(f"rotor_unbalance.{name}"), self.w)
+                force = unbalance_force(planes.moment_size(*vector).named(f"rotor_unbalance.{name}"), self.w)
                 key = f"bearing_load.{name.removeprefix('bearing_')}"
                 self.summary[key] = force.named(key)
         if rotor.kind == "reciprocating" and rotor.rod_length is not None:
@@ -224,7 +224,8 @@ class _Shaft:
         if has_couple:
             sums["rotor_couple"] = _sum(self._turned(vectors, self._middle()))
         for key, parts in sums.items():
-            size = amplitude_of_harmonic(*self._kept(key, name, parts)).named(f"{key}.{name}")
+            law = planes.moment_size if key == "rotor_unbalance" else planes.couple_size
+            size = law(*self._kept(key, name, parts)).named(f"{key}.{name}")
             self.summary[f"{key}.{name}"] = size
             if self.rotor.has_speed:
                 force = f"{'free_force' if key == 'rotor_unbalance' else 'free_moment'}.{name}"
@@ -241,12 +242,12 @@ class _Shaft:
             x, y = self._kept("rotor_unbalance", word, _sum(parts))
             if self.rotor.has_speed:
                 self.columns[f"unbalanced_force_{word}"] = law(*turn, x, y, phi.cos, phi.sin)
-                size = amplitude_of_harmonic(x, y).named(f"rotor_unbalance.{word}")
+                size = planes.moment_size(x, y).named(f"rotor_unbalance.{word}")
                 key = "tractive_effort_variation" if word == "along" and self.rotor.coupled else f"free_force.{word}"
                 self.summary[key] = unbalance_force(size, self.w).named(key)
         if self.rotor.has_speed:
             both = (self.columns["unbalanced_force_along"], self.columns["unbalanced_force_across"])
-            self.columns["unbalanced_force"] = amplitude_of_harmonic(*both)
+            self.columns["unbalanced_force"] = shaking_force(*both)
         if self.rotor.is_flat or not self.rotor.has_speed:
             return
         about = self._middle()
@@ -254,7 +255,7 @@ class _Shaft:
         x, y = self._kept("rotor_couple", "along", _sum(parts))
         self.columns["unbalanced_couple"] = planes.couple_along_stroke(*turn, x, y, phi.cos, phi.sin)
         key = "swaying_couple" if self.rotor.coupled else "free_moment.along"
-        self.summary[key] = (amplitude_of_harmonic(x, y).named("rotor_couple.along") * self.w * self.w).named(key)
+        self.summary[key] = (planes.couple_size(x, y).named("rotor_couple.along") * self.w * self.w).named(key)
 
     def _hammer_blow(self, pistons: Mapping[str, Vector]) -> None:
         """Keep what the reciprocating share in the balance masses does to the rails."""
@@ -264,7 +265,7 @@ class _Shaft:
         parts = {name: _times(self.share, vector) for name, vector in pistons.items()}
         balancing = self._opposed(parts, "reciprocating_moment", self._planes_of(rotor.balancing))
         for name, (x, y) in balancing.items():
-            size = amplitude_of_harmonic(x, y).named(f"reciprocating_moment.{name}")
+            size = planes.moment_size(x, y).named(f"reciprocating_moment.{name}")
             values = {f"reciprocating_moment.{name}": size}
             if rotor.has_speed:
                 values[f"hammer_blow.{name}"] = unbalance_force(size, self.w)

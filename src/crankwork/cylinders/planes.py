@@ -39,6 +39,18 @@ def plane_moment_y(Q_p: Value, theta_p: Value) -> Value:
     return Q_p * np.sin(theta_p)
 
 
+@formula("rotor_unbalance", "khurmi_gupta_2005, ch. 21")
+def moment_size(U_x: Value, U_y: Value) -> Value:
+    """Magnitude of a mass moment of which both parts are known."""
+    return np.sqrt(U_x**2 + U_y**2)
+
+
+@formula("rotor_couple", "khurmi_gupta_2005, ch. 21")
+def couple_size(C_x: Value, C_y: Value) -> Value:
+    """Magnitude of a couple of masses of which both parts are known."""
+    return np.sqrt(C_x**2 + C_y**2)
+
+
 @formula("secondary_moment_x", "khurmi_gupta_2005, ch. 22")
 def secondary_moment_x(Q_p: Value, theta_p: Value, r_p: Value, l: Value) -> Value:  # noqa: E741
     """Part along the line of stroke of the mass moment that stands for the second order of a piston."""
