@@ -17,7 +17,7 @@ from rules import every_formula
 
 PINNED = {
     "symbols": "0621fcb40afa",
-    "formulas": "fe48d7c95bd1",
+    "formulas": "9c8084732c55",
     "quantities": "6427b196b7b1",
     "defaults": "56d384bb604c",
 }
