@@ -162,8 +162,9 @@ def _not_finite(results: Results) -> list[str]:
     ]
 
 
-# of bearings whose size is not stated, or with no rod along which their load reverses, and of a link that never turns
-_MAY_BE_ABSENT = ("bearing_loads bearing_pressure", "bearing_loads reversal_", "instant_centre_")
+# of bearings whose size is not stated, or with no rod along which their load reverses, of a link that never turns, and
+# of the last stage, behind which there is no cooler unless a final temperature is stated
+_MAY_BE_ABSENT = ("bearing_loads bearing_pressure", "bearing_loads reversal_", "instant_centre_", "stages cooler_heat")
 
 
 def _refused(error: CrankworkError, text: str) -> Outcome:

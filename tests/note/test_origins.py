@@ -28,10 +28,11 @@ NAMES = {"/".join(one.parts[-2:]).removesuffix(".toml"): one for one in FILES if
 SOME = [name for name in NAMES if name.startswith("examples/")]
 OTHERS = [*(set(NAMES) - set(SOME)), "examples/spark-engine: exact", "examples/v8-diesel: textbook"]
 DIMENSIONS = tuple({one.dimension for one in UNITS.values()})
-# what no key of a file states
+# what no key of a file states; a crank with no engine has one cylinder
 CONSTANTS = {
     "branch", "compressor_exponent", "cooler_drop", "cooling_exponent", "cooling_factor", "cycle_angle",
-    "exhaust_exponent", "gear_meshes", "heat_zero_temperature", "hydrogen_share", "lower_pairs", "molar_gas_constant",
+    "cylinder_count", "exhaust_exponent", "gas_speed_factor", "gear_meshes", "heat_zero_temperature", "hydrogen_share",
+    "lower_pairs", "molar_gas_constant",
     "moving_links", "pole_pairs", "polytropic_exponent", "specific_gas_constant",
 }  # fmt: skip
 

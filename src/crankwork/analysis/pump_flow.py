@@ -68,7 +68,8 @@ def flow_columns(solved: PreparedLinkage, trace: Mapping[str, TracedValue]) -> d
 def _one_way(over: CycleInterpolant, key: str, is_suction: bool) -> TracedValue:  # noqa: FBT001 - which of two strokes
     """Return the flow of a chamber on one of its strokes, positive, zero on the other one."""
     column, (ends, negative) = over.columns[key].named(key), over.sign_intervals(key)
-    laws = (column, given("", 0.0)) if is_suction else (given("", 0.0), -column)
+    nothing = absent("")
+    laws = (column, nothing) if is_suction else (nothing, -column)
     places: list[float | TracedValue] = [*(reached(column, end) for end in ends[:-1]), ends[-1]]
     return TracedValue(Piecewise(places, tuple(laws[is_less] for is_less in negative)))
 

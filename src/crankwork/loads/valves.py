@@ -329,7 +329,7 @@ class StatedValves:
         """Return the pressure loss in a pipe, zero without a pipe."""
         parts = self._pipe_parts("suction_pipe" if is_suction else "discharge_pipe", flow)
         if not parts:
-            return given("", 0.0)
+            return absent("")
         pressure, lost = parts[0], parts[1] if len(parts) > 1 else None
         if lost is None:
             return pressure

@@ -39,7 +39,7 @@ def has_polygons(material: Material) -> bool:
 
 
 def _numbers(material: Material) -> dict[str, int]:
-    return {name: int(number) for name, number in link_numbers(material.results).items()}
+    return {name: int(number) for name, number in link_numbers(material.results).items() if number.isdecimal()}
 
 
 def _name(force: PolygonForce, numbers: dict[str, int], words: Words) -> str:

@@ -94,8 +94,6 @@ def own_name(kind: str, name: str) -> str:
         return f"S {number_of(name.removesuffix('.centre'))}"
     owner, dot, rest = name.partition(".")
     owner, rest = number_of(owner), ".".join(map(number_of, rest.split(".")))
-    point, separator, link = owner.partition("_")
-    owner = f"{point}{separator}{number_of(link)}"
     of_joint = kind.startswith(("joint_", "doubled_area"))
     # what acts on a link is told by the joint it comes from
     return f"{owner.replace('_', ' ') if of_joint else owner}{dot}{rest.replace('_', ' ')}"

@@ -195,9 +195,17 @@ def link_label(link: str, language: Language) -> str:
 
 
 def link_numbers(results: Results | None) -> dict[str, str]:
-    """Return the numbers of the moving links of a linkage by name, none of another machine."""
-    analysed = structure(results.machine.linkage)[0] if results is not None and results.machine.linkage else None
-    return {} if analysed is None else {name: str(number) for number, name in enumerate(analysed.links, start=1)}
+    """Return the numbers of the moving links of a linkage by name, none of another machine.
+
+    A link that tells apart joints of one point has its number there too: `A_rod` is `A_2`.
+    """
+    linkage = results.machine.linkage if results is not None else None
+    analysed = structure(linkage)[0] if linkage else None
+    if linkage is None or analysed is None:
+        return {}
+    numbers = {name: str(number) for number, name in enumerate(analysed.links, start=1)}
+    links = ((point, link) for point, owners in linkage.owners.items() for link in owners if link in numbers)
+    return {f"{point}_{link}": f"{point}_{numbers[link]}" for point, link in links} | numbers
 
 
 def row_name(name: str, language: Language) -> str:

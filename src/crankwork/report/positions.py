@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Sequence
+from collections.abc import Container, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -85,7 +85,7 @@ def position_plans(
             _plan(sheet, plan, is_main=False)
     _paths(sheet, shape.coupler_points)
     _plan(sheet, plans[main], is_main=True)
-    _texts(sheet, [rail.name for rail in drawn.rails if _number_guide(sheet, rail)])
+    _texts(sheet, list(_number_guides(sheet)))
     if ends is None and shape.pin:
         _rotation(sheet)
     foot, hand = sheet.graph.box.height - 20, sheet.graph.paper
@@ -206,6 +206,20 @@ def _paths(sheet: _Sheet, names: Sequence[str]) -> None:
     """Draw the paths of the crank pin and of the coupler points."""
     for name in (*([sheet.drawn.skeleton.pin] if sheet.drawn.skeleton.pin else []), *names):
         _line_of(sheet.graph, sheet.drawn.points[name], width=0.45, style=DASH_DOT)
+
+
+def _number_guides(sheet: _Sheet) -> Iterator[str]:
+    """Number fixed guides and yield what slides there; where pieces share a stretch, the numbers are of the first."""
+    numbered = list[Rail]()
+    guide = {member.name: member.guide for member in sheet.drawn.skeleton.members}
+    for rail in sheet.drawn.rails:
+        if any(
+            guide[rail.name] == guide[one.name] and rail.start < one.end and one.start < rail.end for one in numbered
+        ):
+            yield rail.name
+        elif _number_guide(sheet, rail):
+            numbered.append(rail)
+            yield rail.name
 
 
 def _number_guide(sheet: _Sheet, rail: Rail) -> bool:
