@@ -61,15 +61,26 @@ def _of_a_linkage(name, results, drawn):
         expected = {"driver"}
     if results.machine.turning is not None:
         expected = {"turning_moment", "speed"}
+    if results.machine.rotor is not None:
+        expected = {"balance_polygons", "unbalanced"}
+    elif results.machine.linkage is None and "stages" in results.listings:
+        # stages alone, of which no machine is drawn
+        expected = {"stage_indicator"}
     if results.machine.linkage is not None:
-        expected |= {"position_plans", "velocity_plan", "acceleration_plan", "joint_forces"}
+        # of a linkage that nothing loads, only how it moves
+        has_forces = any(key.startswith("joint_force.") for key in results.columns)
+        expected = expected if has_forces else expected & {"driver"}
+        expected |= {"position_plans", "velocity_plan", "acceleration_plan"}
+        expected |= {"joint_forces"} if has_forces else set()
         expected |= {"sliders"} if any(key.startswith("slider_") for key in results.columns) else set()
         expected |= {"indicator", "chambers"} if results.machine.chambers else set()
         expected |= {"friction"} if results.machine.friction else set()
         expected |= {"process_force"} if force_laws(results) else set()
         expected |= {"wittenbauer", "speed"} if results.machine.drive.fluctuation else set()
         expected |= {"transient"} if results.machine.transient else set()
-        expected |= {"force_plans", "zhukovsky_lever"} if name not in _WITHOUT_PLANS else set()
+        expected |= {"force_plans", "zhukovsky_lever"} if has_forces and name not in _WITHOUT_PLANS else set()
+        for figure, owners in (("rod_loads", results.machine.crossheads), ("pump_flow", results.machine.vessels)):
+            expected |= {f"{figure}_{at}" if at > 1 else figure for at in range(1, len(owners) + 1)}
         named = [key for key in results.columns if key.startswith("point_velocity.") and key.count(".") == 1]
         expected |= _by_fours("points", len(named))
         expected |= _by_fours("links", sum(key.startswith("link_angular_velocity.") for key in results.columns))
