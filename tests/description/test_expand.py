@@ -26,6 +26,8 @@ from shown import in_parts
 
 plausible_file = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible.py"))["plausible_file"]
 FILES = machine_files("examples", "tests/machines")
+# machines whose pressures follow from heights or stages cannot be compared, their results can
+TRACED = ("triplex-pump", "two-stage-compressor")
 # column of a crank gear, and that of the linkage that it stands for
 COLUMNS = {
     "piston_displacement": ("slider_displacement.piston", 1),
@@ -241,7 +243,10 @@ def test_a_linkage_stands_for_itself_with_its_defaults(tmp_path, name):
     out = expanded(path)
     again = written(tmp_path, out, "again")
     assert expanded(again) == out
-    assert read(again) == read(path)
+    if name in TRACED:
+        assert differences(analyse(read(path)), analyse(read(again))) == []
+    else:
+        assert read(again) == read(path)
     assert "# by default" in out
     stated, found = (tomllib.loads(one) for one in (text, out))
     assert {key for key in stated if key not in found} == set()

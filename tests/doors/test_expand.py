@@ -44,6 +44,16 @@ def test_a_file_is_written_out_with_its_method_and_its_cycle(crankwork):
     assert tomllib.loads(out)["chambers"]["cylinder_1"]["cycle"]["kind"] == "petrol"
 
 
+def test_what_a_linkage_does_not_have_is_told_in_the_file(crankwork):
+    example = Path(__file__).parents[2] / "examples" / "vibrating-crankshaft.toml"
+    for language, told in {"en": "is left out", "ru": "не записано", "vi": "không được ghi"}.items():
+        out = crankwork("check", str(example), "--expand", "--lang", language).out
+        assert out.startswith(f"# [torsion] {told}")
+        assert "torsion" not in tomllib.loads(out)
+    Path("my.toml").write_text(template("engine"), "utf-8")
+    assert "is left out" not in crankwork("check", "my.toml", "--expand").out
+
+
 def test_a_file_is_written_out_alone(check_refusals):
     Path("my.toml").write_text(template("four-bar"), "utf-8")
     alone = "leave out --circuits and --json"

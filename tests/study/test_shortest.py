@@ -38,7 +38,8 @@ def apart(machine):
         near = 1e-7 if key.partition(".")[0].endswith(("_angle", "_time")) else 1e-9
         if one != pytest.approx(whole.summary[key], rel=near, abs=near):
             unlike.add(key)
-    return unlike if keys and len(found) > len(whole.summary) / 3 else {"too few values"}
+    # what was measured on a test bed has no columns
+    return unlike if (keys or not whole.columns) and len(found) > len(whole.summary) / 3 else {"too few values"}
 
 
 @pytest.mark.parametrize("names", [FEW, pytest.param(set(MACHINES) - FEW, marks=pytest.mark.slow)], ids=["few", "rest"])

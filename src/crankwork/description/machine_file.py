@@ -181,12 +181,14 @@ def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
 
 
 def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
-    """Return the keys that can never have an effect with the others, with the reason; none in files of format 1."""
-    if values["format"] == 1:
-        return {}
-    if keys in (*_TABULATED, *_ALONE):
-        return {f"method.{name}": ErrorMessage("idle_method") for name in METHOD.keys if name != "pi"}
+    """Return the keys that can never have an effect with the others, with the reason; in files of format 1 few."""
     idle = dict[str, ErrorMessage]()
+    if keys is ROTOR_FILE and not any(mass.si("reciprocating") for mass in (values["rotor"] or {}).get("masses") or ()):
+        idle["rotor.reciprocating_share"] = ErrorMessage("rotor_no_pistons")
+    if values["format"] == 1:
+        return idle
+    if keys in (*_TABULATED, *_ALONE):
+        return idle | {f"method.{name}": ErrorMessage("idle_method") for name in METHOD.keys if name != "pi"}
     if keys in _LINKAGES:
         return idle
     if "gas" not in values and "cycle" not in values:

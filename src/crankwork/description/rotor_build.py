@@ -90,7 +90,8 @@ def _rotor(table: Values, reader: Reader) -> Rotor:
     )
     if rotor.bearings and (len(set(rotor.bearings)) == 1 or rotor.is_flat):
         reader.add_error("rotor.bearings", ErrorMessage("rotor_bearings"))
-    if rotor.kind == "reciprocating" or not any(mass.reciprocating for mass in masses):
-        for key in {"reciprocating_share", "locomotive"} & set(table):
-            reader.add_error(f"rotor.{key}", ErrorMessage("rotor_no_pistons"))
+    # the share is an idle key
+    has_pistons = rotor.kind != "reciprocating" and any(mass.reciprocating for mass in masses)
+    if "locomotive" in table and not has_pistons:
+        reader.add_error("rotor.locomotive", ErrorMessage("rotor_no_pistons"))
     return rotor

@@ -371,8 +371,20 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
         columns = resolve_file_columns(values, keys, Reader.of(values, Path(path).parent))
         description = Description(_text(given_motion_tables(columns)), description.name)
     elif "rod" in keys.keys:
-        description = Description(_text(linkage_tables(values, engine_of(description))), description.name)
+        tables = list(linkage_tables(values, engine_of(description)))
+        left_out = [
+            f"# {translate('check.not_in_linkage', language, name=name)}\n" for name in _not_in_linkage(values, tables)
+        ]
+        description = Description("".join(left_out) + _text(tables), description.name)
     return _with_defaults(description, translate("check.by_default", language))
+
+
+def _not_in_linkage(values: Mapping[str, Any], tables: Iterable[tuple[str, Any]]) -> list[str]:
+    """Return what an engine states and its linkage has no keys for."""
+    stated = {key for key, _ in tables}
+    names = [f"[{name}]" for name in ("bearings", "balance", "torsion", "test") if name in values.keys() - stated]
+    names += ["[gas.combustion]"] if "combustion" in values.get("gas", {}) else []
+    return names + (["rod.equivalent"] if "equivalent" in values["rod"] else [])
 
 
 def linkage_of(description: Description) -> dict[str, Any]:
