@@ -134,12 +134,12 @@ class DesignTraces:
                     raise NotCompiledError("ways", name)
             self._matched[id(first)] = nodes
             new.append(id(first))
-            below = [self.dependencies(node) for node in nodes]
-            if len({len(operands) for operands in below}) > 1:
+            needed = [self.dependencies(node) for node in nodes]
+            if len({len(operands) for operands in needed}) > 1:
                 raise NotCompiledError("ways", name)
             stack += [
                 (tuple(operand.node for operand in operands), operands[0].key or name)
-                for operands in zip(*below, strict=True)
+                for operands in zip(*needed, strict=True)
             ]
         for known in in_order(traced[:1], into=self.dependencies):
             node = known.node
