@@ -381,10 +381,11 @@ def _other_alphabet(name: str) -> str:
     return next((unit for table in (TO_LATIN, _TO_CYRILLIC) if (unit := known_unit(name.translate(table)))), "")
 
 
-def _kept(name: str) -> tuple[int, str, str]:
-    """Return what a slip of the pen does not change: how many units are multiplied, those below, and powers."""
-    above, _, below = _plain(name).partition("/")
-    return above.count("*"), below, "".join(re.findall(r"\d", above))
+def _is_slip(name: str, unit: str) -> bool:
+    """Return whether a name has the powers and as many factors as a unit, and below the stroke the same or no unit."""
+    (above, _, below), (of_unit, _, below_unit) = (_plain(text.lower()).partition("/") for text in (name, unit))
+    same = [(text.count("*"), re.findall(r"\d", text)) for text in (above, of_unit)]
+    return same[0] == same[1] and (below == below_unit or (bool(below and below_unit) and not known_unit(below)))
 
 
 def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> ErrorMessage:
@@ -396,9 +397,7 @@ def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values:
     near = near or (difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else [])
     # a slip of the pen keeps the letters; what stands behind a unit has a meaning, as in `barg` and `Nmm`
     near = [unit for unit in all_spellings if len(name) > 2 and sorted(unit) == sorted(name)][:1] or [
-        unit
-        for unit in near
-        if _kept(name.lower()) == _kept(unit.lower()) and not re.fullmatch(rf"{re.escape(unit)}[^s]", name)
+        unit for unit in near if _is_slip(name, unit) and not re.fullmatch(rf"{re.escape(unit)}[^s]", name)
     ]
     if "temperature" in dimensions and name.translate(TO_LATIN).upper() in {"C", "F"}:
         near = [f"°{name.translate(TO_LATIN).upper()}"]
