@@ -397,7 +397,9 @@ def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values:
     near = near or (difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else [])
     # a slip of the pen keeps the letters; what stands behind a unit has a meaning, as in `barg` and `Nmm`
     near = [unit for unit in all_spellings if len(name) > 2 and sorted(unit) == sorted(name)][:1] or [
-        unit for unit in near if _is_slip(name, unit) and not re.fullmatch(rf"{re.escape(unit)}[^s]", name)
+        unit
+        for unit in near
+        if _is_slip(name, unit) and ("/" in unit or not re.fullmatch(rf"{re.escape(unit)}[^s]", name))
     ]
     if "temperature" in dimensions and name.translate(TO_LATIN).upper() in {"C", "F"}:
         near = [f"°{name.translate(TO_LATIN).upper()}"]
