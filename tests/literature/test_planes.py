@@ -278,6 +278,11 @@ def test_three_cranks_leave_a_swaying_couple_alone() -> None:
     one = 0.6 * 200 * 0.3 * (8 * math.pi) ** 2
     assert results["tractive_effort_variation"] == pytest.approx(0, abs=1e-9 * one)
     assert results["swaying_couple"] == pytest.approx(math.sqrt(3) * 0.7 * one, rel=1e-12)
+    # the forces along the rails times their arms, one by one
+    degrees = np.array([0.0, 37.0, 101.0, 250.0])
+    couple = sum(one * np.cos(np.radians(degrees + 120 * k)) * 0.7 * (k - 1) for k in range(3))
+    column = results.columns_at(degrees, ["unbalanced_couple"])["unbalanced_couple"]
+    assert column == pytest.approx(couple, rel=1e-12, abs=1e-9 * one)
 
 
 def test_what_cannot_balance_is_refused() -> None:
