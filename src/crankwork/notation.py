@@ -163,7 +163,6 @@ ARGUMENTS: dict[str, Argument] = {
     "rho_sh": Argument("shaft_density"),
     "I_p": Argument("polar_moment"),
     "I_eq": Argument("polar_moment", "{}₀"),
-    "d_eq": Argument("reference_diameter"),
     "l_eq": Argument("equivalent_length"),
     "L_j": Argument("journal_length"),
     "D_j": Argument("journal_diameter"),

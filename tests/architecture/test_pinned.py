@@ -16,8 +16,8 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "0621fcb40afa",
-    "formulas": "9c8084732c55",
+    "symbols": "7e211c10f06b",
+    "formulas": "eef1fe41620d",
     "quantities": "6427b196b7b1",
     "defaults": "56d384bb604c",
 }

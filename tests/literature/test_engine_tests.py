@@ -196,6 +196,30 @@ def test_losses_take_from_what_the_diagram_gives(losses: str, coefficients: tupl
     assert results["indicated_power"] == plain["indicated_power"]
 
 
+def test_what_books_do_not_print_by_hand() -> None:
+    """20 kW at 1500 rpm with losses of 5 kW, 80 kg/h of exhaust gas 300 K warmer, and 1590 rpm without load."""
+    results = of_file("""
+        crank.speed = "1500 rpm"
+        [test]
+        strokes = 4
+        effective_power = "20 kW"
+        mechanical_efficiency = 0.8
+        idle_speed = "1590 rpm"
+        fuel_rate = "5 kg/h"
+        fuel_heating_value = "42 MJ/kg"
+        air_rate = "75 kg/h"
+        exhaust_rise = "300 K"
+        exhaust_heat = "1005 J/(kg*K)"
+    """)
+    known = {
+        "effective_torque": 400 / math.pi,
+        "mechanical_loss_power": 5000,
+        "speed_droop": 0.06,
+        "heat_to_exhaust": 6700,
+    }
+    assert {key: results[key] for key in known} == pytest.approx(known, rel=1e-12)
+
+
 def test_nothing_that_follows_is_refused() -> None:
     with pytest.raises(crankwork.errors.InputError, match=r"test\.fuel_density: says nothing without test\.fuel_flow"):
         of_file('test = { fuel_density = "800 kg/m3" }')

@@ -41,6 +41,7 @@ from campaigns.detection import Map  # noqa: E402 - the folder of tests is no pa
 from campaigns.faulty import in_turn  # noqa: E402
 from campaigns.marked import SOURCE, prepare  # noqa: E402
 from replaced import replaced_formula  # noqa: E402 - the folder of tests is no package
+from rules import every_formula  # noqa: E402 - the folder of tests is no package
 
 CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "crankwork" / "mutants"
 SECONDS = 60
@@ -165,6 +166,8 @@ class Campaign:
     @pytest.hookimpl(tryfirst=True)
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Run the campaign instead of the tests."""
+        # also of modules that only a test imports while it runs
+        every_formula()
         witnesses = {one.name: one for one in witnesses_of(session)}
         known = recorded(self.arguments.executed.resolve(), witnesses)
         calling = {name: [one for one in tests if one in witnesses] for name, tests in calls(known).items()}

@@ -14,7 +14,6 @@ from crankwork.shaft.torsion_formulas import (
     inertia_of_shaft,
     length_at_first_speed,
     polar_moment,
-    polar_moment_of_reference,
     stiffness_of_length,
 )
 from crankwork.shaft.torsion_model import ElasticShaft, ShaftPart, TorsionModel, structure_of, walked
@@ -135,8 +134,8 @@ def _reference(model: TorsionModel, pi: float) -> TracedValue | None:
     """Return the polar moment of the shaft that equivalent lengths are of: stated, or the first section."""
     diameter = model.reference_diameter
     if diameter is not None:
-        moment = polar_moment_of_reference(pi, given("reference_diameter", diameter, f"{_PATH}.reference_diameter"))
-        return moment.named("polar_moment.reference")  # type: ignore[no-any-return]
+        moment = _solid(pi, given("reference_diameter", diameter, f"{_PATH}.reference_diameter"))
+        return moment.named("polar_moment.reference")
     first = next((shaft for shaft in model.shafts.values() if shaft.parts), None)
     return None if first is None else _moment(_part_path(first, 0), first.parts[0], pi).named("polar_moment.reference")
 
@@ -153,6 +152,11 @@ def section(path: str, diameter: float, bore: float) -> tuple[TracedValue, Trace
     """Return outer diameter and bore of a section."""
     inner = given("shaft_bore", bore, f"{path}.bore") if bore else absent("shaft_bore")
     return given("shaft_diameter", diameter, f"{path}.diameter"), inner
+
+
+def _solid(pi: float, diameter: TracedValue) -> TracedValue:
+    moment: TracedValue = polar_moment(pi, diameter, absent("shaft_bore"))
+    return moment
 
 
 def _moment(path: str, part: ShaftPart, pi: float) -> TracedValue:
@@ -176,7 +180,7 @@ def _stiffness(
     if shaft.throw is not None:
         sizes = {item: _throw_size(shaft, item, radius) for item in _SIZES}
         length = THROW_FORMULAS[shaft.throw.formula](*sizes.values()).named(f"equivalent_length.{name}")
-        moment = polar_moment_of_reference(pi, sizes["journal_diameter"]).named(f"polar_moment.{name}")
+        moment = _solid(pi, sizes["journal_diameter"]).named(f"polar_moment.{name}")
         return stiffness_of_length(modulus, moment, length).named(key), length
     if reference is None:
         raise TypeError("a shaft without a stiffness has sections")

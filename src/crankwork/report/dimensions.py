@@ -70,17 +70,21 @@ def _crowding(start: Array, end: Array, busy: Array) -> float:
     return float(np.sum(np.maximum(0.0, needed[:, None] - near) ** 2))
 
 
+def arrowhead(tip: Array, ahead: Array) -> Polyline:
+    """Return the arrowhead of a dimension line that points ahead, a vector of length 1."""
+    back, across = tip - _HEAD[1] * ahead, _HEAD[0] * np.array([-ahead[1], ahead[0]])
+    return Polyline(np.array([tip, back + across, back - across]), Pen(0.0), closed=True, fill=0.0)
+
+
 def _drawn(length: Length, ends: tuple[Array, Array], feet: tuple[Array, Array]) -> Iterator[Item]:
     """Yield extension lines, the line with its arrowheads, and the length on it."""
     along = (feet[1] - feet[0]) / np.hypot(*(feet[1] - feet[0]))
-    across = np.array([-along[1], along[0]])
     for point, foot, ahead in zip(ends, feet, (-along, along), strict=True):
-        side, back = foot - point, foot - _HEAD[1] * ahead
+        side = foot - point
         # a support and its letter stand between
         gap = 2.0 if length.axis is None else min(_BELOW[0] - 2.0, np.hypot(*side))
         yield line(point + gap * side / np.hypot(*side), foot + _BEYOND * side / np.hypot(*side))
-        corners = np.array([foot, back + _HEAD[0] * across, back - _HEAD[0] * across])
-        yield Polyline(corners, Pen(0.0), closed=True, fill=0.0)
+        yield arrowhead(foot, ahead)
     yield line(*feet)
     x, y = ((feet[0] + feet[1]) / 2).tolist()
     yield Text((x, y - _LETTERS / 2), length.text, _LETTERS, "middle", halo=True)

@@ -23,7 +23,7 @@ from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
-from crankwork.report.dimensions import Length
+from crankwork.report.dimensions import Length, arrowhead
 from crankwork.report.display import displayed, for_readers, key_unit, label, link_label, symbol
 from crankwork.report.drawn_cylinders import engine_sketch
 from crankwork.report.drawn_links import linkage_sketch
@@ -146,11 +146,8 @@ def dimensioned(film: Animation, bore: str, stroke: str) -> Drawing:
     items += [line((column - 1, y), (left - 1, y)) for y in (low, high)]
     for (x, y), (along, up) in (((left, over), (right - left, 0.0)), ((column, low), (0.0, high - low))):
         items.append(line((x, y), (x + along, y + up)))
-        for base, size in ((0.0, 2.5), (1.0, -2.5)):
-            tip, direction = np.array([x + base * along, y + base * up]), np.array([along, up]) / math.hypot(along, up)
-            side = 0.5 * np.array([-direction[1], direction[0]])
-            foot = tip + size * direction
-            items.append(Polyline(np.array([tip, foot + side, foot - side]), Pen(0.0), closed=True, fill=0.0))
+        ahead = np.array([along, up]) / math.hypot(along, up)
+        items += [arrowhead(np.array([x, y]), -ahead), arrowhead(np.array([x + along, y + up]), ahead)]
     items.append(Text(((left + right) / 2, over + 1), bore, anchor="middle"))
     items.append(Text((column - 1, (low + high) / 2), stroke, anchor="middle", angle=90.0))
     return still._replace(items=(*still.items, *items))

@@ -22,12 +22,6 @@ def polar_moment(pi: Value, d_sh: Value, d_bo: Value) -> Value:
     return pi * (d_sh**4 - d_bo**4) / 32
 
 
-@formula("polar_moment", "khurmi_gupta_2005, ch. 24")
-def polar_moment_of_reference(pi: Value, d_eq: Value) -> Value:
-    """Polar second moment of area of the solid shaft that equivalent lengths are of."""
-    return pi * d_eq**4 / 32
-
-
 @formula("equivalent_length", "khurmi_gupta_2005, ch. 24")
 def equivalent_length(l_sh: Value, I_eq: Value, I_p: Value) -> Value:
     """Length of the reference shaft that twists as much as a part of a shaft."""
