@@ -83,14 +83,25 @@ def _failed(item: pytest.Item) -> Callable[[], bool]:
 def tried(mutant: Any, witnesses: Sequence[Witness]) -> Verdict:
     """Return who notices a mutant first; who fails without it too does not notice it."""
     for witness in witnesses:
+        forget()
         with replaced_formula(mutant.formula, mutant.function):
             try:
                 noticed = witness.notices()
             except Exception:  # noqa: BLE001 - a mutant that cannot be computed is noticed
                 noticed = True
+        forget()
         if noticed and not witness.notices():
             return Verdict(mutant.name, witness.name, witness.is_check)
     return Verdict(mutant.name)
+
+
+def forget() -> None:
+    """Empty what tests keep of machines that they have computed."""
+    for name, module in [*sys.modules.items()]:
+        if name.startswith("test_") or Path(getattr(module, "__file__", None) or "").is_relative_to(ROOT / "tests"):
+            for kept in [*vars(module).values()]:
+                if isinstance(kept, functools._lru_cache_wrapper):
+                    kept.cache_clear()
 
 
 def apart(tasks: Sequence[Callable[[], Any]], workers: int, seconds: int = SECONDS) -> Iterator[tuple[int, Any]]:
