@@ -147,8 +147,14 @@ def _has_weights(results: Results) -> bool:
 
 
 def _conventions(results: Results) -> Iterator[Assumption]:
-    """Yield conventions of angles and of tolerances."""
+    """Yield conventions of angles, of tolerances, and of the length of a link with more than two joints."""
     machine = results.machine
+    for member in machine.linkage.members if machine.linkage is not None else ():
+        joints = [name for name in member.points if name != f"{member.name}.centre"]
+        of_length = {"centre": member.centre_share, "inertia": member.length_inertia}
+        stated = tuple(f"links.{member.name}.{key}" for key, value in of_length.items() if value)
+        if stated and len(joints) > 2:
+            yield Assumption("first_joints", stated, names=("".join(joints[:2]),))
     if machine.lengths is not None and machine.gas is not None:
         yield Assumption("angle_of_cycle" if machine.cycle > 360.0 else "angle_of_turn", ())
     if machine.tolerances:

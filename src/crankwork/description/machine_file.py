@@ -43,7 +43,7 @@ from crankwork.description.links_keys import (
     TURNING_FILE,
 )
 from crankwork.description.measured_build import add_questions, in_file
-from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
+from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, NumberOr, TableSpec, Values, nearest_name
 from crankwork.description.stated import file_inputs, mistaken_names
 from crankwork.description.table_file import resolve_file_columns
 from crankwork.description.toml_edit import locate
@@ -572,6 +572,8 @@ def entry_at(entry: object, step: str | int) -> object:
             return entry.entry
         case NameOr():
             return entry_at(entry.other, step)
+        case NumberOr():
+            return entry_at(entry.quantity, step)
     return None
 
 

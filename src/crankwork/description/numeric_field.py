@@ -75,13 +75,12 @@ def numeric_field(values: dict[str, Any], key: str, option: str = "--for") -> Nu
 
 def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has its own type
     """Return the type of a number in a field that also allows something else."""
-    if isinstance(kind, NameOr):
-        kind = kind.other
     if isinstance(kind, ListOf) and kind.may_be_one and isinstance(now, str):
         kind = kind.entry
     if isinstance(kind, NumberOr):
-        return kind.quantity if isinstance(now, str) and not is_fraction(now) else kind.number
-    return kind
+        is_quantity = isinstance(now, list) or (isinstance(now, str) and not is_fraction(now))
+        kind = kind.quantity if is_quantity else kind.number
+    return kind.other if isinstance(kind, NameOr) else kind
 
 
 def _unknown(key: str, around: object, step: str | int) -> ErrorMessage:

@@ -188,14 +188,14 @@ class WordOr(NamedTuple):
 
 
 class NumberOr(NamedTuple):
-    """A quantity with its unit, or a plain number."""
+    """A quantity with its unit or a list of them, or a plain number."""
 
-    quantity: Quantity
+    quantity: ValueType
     number: Number
 
-    def read(self, value: object, key: str, reader: Reader) -> MeasuredValue | float | None:
-        """Return the quantity of a text and the number of a number."""
-        is_quantity = isinstance(value, str) and not is_fraction(value)
+    def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - a number or the other kind's type
+        """Return the number of a number or a fraction, and the quantity of all else."""
+        is_quantity = isinstance(value, list) or (isinstance(value, str) and not is_fraction(value))
         return (self.quantity if is_quantity else self.number).read(value, key, reader)
 
     def schema(self, language: Language, /) -> dict[str, Any]:

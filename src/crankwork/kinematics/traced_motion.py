@@ -124,7 +124,7 @@ class _Paths:
         members = () if linkage is None else (linkage.driving, *linkage.members)
         self._geared = set() if linkage is None else {geared.name for geared in linkage.geared}
         self._guides = {member.name: member.guide for member in members}
-        self.of_length = {member.name: member for member in members if member.length_inertia is not None}
+        self.members = {member.name: member for member in members}
         halves = linkage.driver.halves if linkage is not None and isinstance(linkage.driver, Cylinder) else ()
         self._halves = {half.link: f"driver.{name}" for half, name in zip(halves, ("barrel", "rod"), strict=False)}
         self._crank = linkage.driver.link if linkage is not None and isinstance(linkage.driver, Crank) else ""
@@ -299,14 +299,11 @@ def _chain(chain: Chain, paths: _Paths) -> Chain:
 
 
 def _body(body: Body, paths: _Paths) -> Body:
-    path, name, member = paths.member(body.link), body.link, paths.of_length.get(body.link)
+    path, name, member = paths.member(body.link), body.link, paths.members.get(body.link)
     mass = _stated(f"body_mass.{name}", body.mass, f"{path}.mass")
     if member is None or member.length_inertia is None:
         return replace(body, mass=mass, inertia=_stated(f"body_inertia.{name}", body.inertia, f"{path}.inertia"))
-    key, length_path = (
-        (f"link_length.{name}", f"{path}.length") if path != "crank" else ("crank_radius", "crank.radius")
-    )
-    length = given(key, member.inertia_length, length_path)
+    length = _of_first_joints(path, name, member.inertia_length)
     share = given(f"inertia_share.{name}", member.length_inertia.share, f"{path}.inertia")
     inertia = share * mass * length * length
     if member.length_inertia.about_end:
@@ -314,10 +311,22 @@ def _body(body: Body, paths: _Paths) -> Body:
     return replace(body, mass=mass, inertia=_untyped(inertia.named(f"body_inertia.{name}")))
 
 
+def _of_first_joints(path: str, name: str, length: float) -> TracedValue:
+    """Return the distance of the first two joints of a link, or the radius of the crank."""
+    if path == "crank":
+        return given("crank_radius", length, "crank.radius")
+    return given(f"link_length.{name}", length, f"{path}.length")
+
+
 def _link_point(point: LinkPoint, paths: _Paths) -> LinkPoint:
-    member = paths.member(point.link)
+    member, stated = paths.member(point.link), paths.members.get(point.link)
     # a centre of mass that is not a joint has no name in the description
     is_centre = point.name == f"{point.link}.centre"
+    if is_centre and stated is not None and stated.centre_share:
+        share = given(f"centre_share.{point.link}", stated.centre_share, f"{member}.centre")
+        length = _of_first_joints(member, point.link, point.along / stated.centre_share)
+        along = (share * length).named(f"point_along.{point.name}")
+        return replace(point, along=_untyped(along), across=_untyped(absent(f"point_across.{point.name}")))
     path = f"{member}.centre" if is_centre else f"{member}.points.{point.name}"
     along, across = _along_across(point.name, (point.along, point.across), path)
     return replace(point, along=along, across=across)

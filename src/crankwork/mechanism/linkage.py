@@ -37,6 +37,8 @@ class Member:
     mass: float = 0.0
     inertia: float = 0.0
     centre: str = ""  # Name of the point at the centre of mass; empty without mass
+    # Its distance from the first joint over that of the second, if it is stated so [-]
+    centre_share: float | None = None
     # How the moment of inertia follows from the mass and the length, if it is stated so, and that length [m]
     length_inertia: LengthInertia | None = None
     inertia_length: float = 0.0

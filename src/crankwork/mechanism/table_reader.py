@@ -229,7 +229,8 @@ class _Reader:
         points, places = dict(member.points), dict(places)
         if not isinstance(centre, str):
             name = f"{member.name}.centre"
-            points[name] = places[name] = centre[0], centre[1]
+            points[name] = places[name] = _centre_place(centre, places)
+            member = replace(member, centre_share=_share(centre))
             centre = name
         elif centre not in places:
             known = ", ".join(places)
@@ -303,14 +304,15 @@ class _Reader:
         mass, inertia = table.get("mass", 1.0), self._inertia(table)
         centre = table.get("centre", next(iter(member.points), "") if member.guide else None)
         if not isinstance(centre, str):
-            name, place = f"{member.name}.centre", (0.0, 0.0) if centre is None else (centre[0], centre[1])
+            name, place = f"{member.name}.centre", _centre_place(centre or 0.0, member.points)
+            member = replace(member, centre_share=_share(centre))
             if centre is None:
                 self._problem(f"{key}.centre", ErrorMessage("pair_missing"))
             member = _replaced(member, {**member.points, name: place}, mass, inertia, name)
             return self._of_length(key, table, member, member.points)
         if centre not in member.points:
             message = ErrorMessage(
-                "centre_unknown" if centre else "centre_missing",
+                "centre_of_link" if not member.guide else "centre_unknown" if centre else "centre_missing",
                 centre=centre, link=member.name, known=", ".join(member.points),
             )  # fmt: skip
             self._problem(f"{key}.centre", message)
@@ -378,6 +380,20 @@ class _Reader:
 def _replaced(member: Member, points: Mapping[str, Point], mass: float, inertia: float, centre: str) -> Member:
     values = {entry.name: getattr(member, entry.name) for entry in fields(member)}
     return Member(**{**values, "points": points, "mass": mass, "inertia": inertia, "centre": centre})
+
+
+def _share(centre: object) -> float | None:
+    """Return the share of the distance of the first two joints that a centre of mass is stated by."""
+    return float(centre) if isinstance(centre, int | float) else None
+
+
+def _centre_place(centre: Any, places: Mapping[str, Point]) -> Point:  # noqa: ANN401 - a share, or a pair
+    """Return a centre of mass in the frame of its body; of a share, on the line of its first two joints."""
+    share = _share(centre)
+    if share is None:
+        return centre[0], centre[1]
+    first, second, *_ = *places.values(), (0.0, 0.0)
+    return first[0] + share * (second[0] - first[0]), first[1] + share * (second[1] - first[1])
 
 
 def _points(table: Table) -> dict[str, Point]:

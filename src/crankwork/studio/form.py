@@ -170,16 +170,8 @@ def _more(table: TableSpec, path: str, stated: Mapping[str, Any], language: Lang
                                "means": means, "label": _label(name, means, language)}  # fmt: skip
         if name == "mass" and "centre" in table.keys and "centre" not in stated and "joins" in stated:
             # a mass needs its centre
-            row["also"] = {f"{path}.centre": _middle(stated)}
+            row["also"] = {f"{path}.centre": "0.5"}
         yield row
-
-
-def _middle(link: Mapping[str, Any]) -> str:
-    """Return the middle of a link with a length, otherwise its first joint."""
-    length = Quantity(("length",), 0.0, 1e3).read(link.get("length"), "", Reader())
-    if length is None:
-        return str(link["joins"][0])
-    return toml([f"{from_si(length.value, length.unit) / 2:.4g} {length.unit}", f"0 {length.unit}"])
 
 
 def first_value(kind: object) -> object:
@@ -195,8 +187,10 @@ def first_value(kind: object) -> object:
             return kind.options[0]
         case Flag():
             return True
-        case NumberOr():
+        case NumberOr(quantity=Quantity()):
             return first_value(kind.quantity)
+        case NumberOr():
+            return first_value(kind.number)
         case WordOr():
             return first_value(kind.words)
     return "..."

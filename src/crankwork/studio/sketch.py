@@ -229,8 +229,11 @@ def _moved_masses(stated: Description, before: Mapping[str, Any], now: Mapping[s
             del stated[f"crank.{key}"]
     own = stated.values.get("links", {}).get(name, {})
     weighs = {key: own[key] for key in _WEIGHS if key in own}
-    if own.get("joins") == joined[::-1] and isinstance(own.get("centre"), list):
-        weighs["centre"] = [_turned(own["centre"][0], own["length"]), _turned(own["centre"][1])]
+    match own:
+        case {"joins": joins, "centre": [along, across]} if joins == joined[::-1]:
+            weighs["centre"] = [_turned(along, own["length"]), _turned(across)]
+        case {"joins": joins, "centre": int(share) | float(share)} if joins == joined[::-1]:
+            weighs["centre"] = 1 - share
     return {f"crank.{key}": value for key, value in weighs.items()}
 
 
