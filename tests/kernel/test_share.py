@@ -24,7 +24,7 @@ NOT_COMPILED: dict[str, tuple[int, set[str]]] = {
     "examples-narrow-v6": (2, {"procedure"}),
     "examples-press-start": (4, {"procedure"}),
     "examples-punching-machine": (26, {"ways"}),
-    "examples-radial-five": (24, {"differs", "procedure"}),
+    "examples-radial-five": (6, {"procedure"}),
     "examples-triplex-pump": (6, {"differs", "procedure"}),
     "examples-two-stage-compressor": (1, {"procedure"}),
     "examples-two-stroke": (58, {"procedure"}),

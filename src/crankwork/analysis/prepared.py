@@ -108,7 +108,7 @@ class PreparedCylinder(PreparedMachine):
     def traced_stroke(self, lengths: SliderCrank) -> TracedValue:
         """Return the stroke as a traced value, of traced lengths."""
         if self.articulated_rod is not None:
-            travel = TracedValue(ProcedureValue(self.stroke[0], "range", (self.moving.trace["piston_displacement"],)))
+            travel = TracedValue(ProcedureValue(self.stroke[0], "max", (self.moving.trace["piston_displacement"],)))
             return TracedValue(ProcedureValue(self.stroke[0], "dead_centre", lengths, argument=travel), "stroke")
         return traced_inputs.stroke(lengths)
 
