@@ -73,6 +73,8 @@ _SETTLED = 1e-9
 _JUMP = 1e-10
 # how far beyond a jump the law after it is met, also at the angle of another cylinder, where rounding is undone [deg]
 BEYOND = 2e-11
+# how far before an edge the law before it is met where the angles of two parts agree but for the digits of a file [deg]
+_AHEAD = 1e-9
 _AT_EDGE = 0.05
 # of the end of a cycle, which is its start [deg]
 _SAME_PLACE = 1e-7
@@ -308,19 +310,23 @@ class CycleInterpolant:
         if not self._row:
             return {}
         count = len(self._row)
-        rows, angles, equal = self._may_stand()
-        ordered = unique_sorted(angles)
+        (rows, angles, equal), falling, ahead = self._may_stand()
+        ordered = unique_sorted(np.concatenate([angles, ahead]))
         values = self._program.rows(self._angles_at(ordered), self._row)
+        both, largest = np.concatenate([values, -values]), np.full(2 * count, -np.inf)
+        np.maximum.at(largest, rows, both[rows, np.searchsorted(ordered, angles)])
+        # an edge may lie behind the jump that it stands for
+        is_missed = both[falling, np.searchsorted(ordered, ahead)] > (largest + equal)[falling]
+        rows, angles = np.append(rows, falling[is_missed]), np.append(angles, ahead[is_missed])
         # where one may stand counts for the other too, so that no largest is below its least
         either = _Places(np.concatenate([rows, (rows + count) % (2 * count)]), np.tile(angles, 2), equal)
-        both = np.concatenate([values, -values])
         first = self._first_of_equal(either, ordered, both)
         result = {
             key: (
-                Extreme(float(column[largest]), float(ordered[largest])),
-                Extreme(float(column[least]), float(ordered[least])),
+                Extreme(float(column[high]), float(ordered[high])),
+                Extreme(float(column[low]), float(ordered[low])),
             )
-            for key, column, largest, least in zip(self._row, values, first[:count], first[count:], strict=True)
+            for key, column, high, low in zip(self._row, values, first[:count], first[count:], strict=True)
         }
         for key, (other, delay) in self._later.items():
             row = self._row[other]
@@ -342,8 +348,11 @@ class CycleInterpolant:
         edges = later[begins & (later - np.min(later) < _AT_EDGE)]
         return float(np.min(edges) if edges.size else np.min(later))
 
-    def _may_stand(self) -> _Places:
-        """Return where the largest of columns may stand, and then the largest of what is opposite to each."""
+    def _may_stand(self) -> tuple[_Places, NDArray[np.intp], Array]:
+        """Return where the largest of columns may stand, and then the largest of what is opposite to each.
+
+        And the rows that may be largest before a jump, with crank angles just before it. [deg]
+        """
         at_ends = self._coefficients @ _AT_LOOK[[0, -1]].T
         at_ends = np.concatenate([at_ends, -at_ends])
         top, least = at_ends.max(axis=(1, 2), initial=-np.inf), at_ends.min(axis=(1, 2), initial=np.inf)
@@ -367,15 +376,16 @@ class CycleInterpolant:
         at_edges = np.maximum(before, after) >= high[:, None]
         edge = np.nonzero(np.append(at_edges, at_edges[:, :1], axis=1))
         jumps = np.abs(after - before) > _JUMP * np.tile(self._scale, 2)[:, None]
-        jump = np.nonzero(jumps & (after >= high[:, None]))
+        jump, fall = (np.nonzero(jumps & (side >= high[:, None])) for side in (after, before))
         row, interval, u = (peak_values[at_peaks >= high[row]] for peak_values in (row, interval, u))
         peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
         beyond = self._low[jump[1]] + BEYOND
         top, least = self._plain(top), self._plain(least)
         equal = _PLATEAU * (top - least + np.maximum(np.abs(top), np.abs(least)))
-        return _Places(
+        places = _Places(
             np.concatenate([edge[0], jump[0], row]), np.concatenate([self.edges[edge[1]], beyond, peaks]), equal
         )
+        return places, fall[0], np.roll(self._high, 1)[fall[1]] - _AHEAD
 
     def _plain(self, values: Array) -> Array:
         """Return values of columns, or of columns and what is opposite to them, for values of what follows them."""
