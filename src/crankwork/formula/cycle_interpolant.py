@@ -313,10 +313,10 @@ class CycleInterpolant:
         (rows, angles, equal), falling, ahead = self._may_stand()
         ordered = unique_sorted(np.concatenate([angles, ahead]))
         values = self._program.rows(self._angles_at(ordered), self._row)
-        both, largest = np.concatenate([values, -values]), np.full(2 * count, -np.inf)
-        np.maximum.at(largest, rows, both[rows, np.searchsorted(ordered, angles)])
+        both, top = np.concatenate([values, -values]), np.full(2 * count, -np.inf)
+        np.maximum.at(top, rows, both[rows, np.searchsorted(ordered, angles)])
         # an edge may lie behind the jump that it stands for
-        is_missed = both[falling, np.searchsorted(ordered, ahead)] > (largest + equal)[falling]
+        is_missed = both[falling, np.searchsorted(ordered, ahead)] > (top + equal)[falling]
         rows, angles = np.append(rows, falling[is_missed]), np.append(angles, ahead[is_missed])
         # where one may stand counts for the other too, so that no largest is below its least
         either = _Places(np.concatenate([rows, (rows + count) % (2 * count)]), np.tile(angles, 2), equal)
