@@ -35,7 +35,7 @@ from crankwork.locale.numbers import number
 from crankwork.mechanism.structure import _longest_loop
 from crankwork.mechanism.table_reader import linkage_from
 from crankwork.note import material
-from crankwork.note.friction import _friction_of_joint
+from crankwork.note.forces import _friction_of_joint
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets.sheet import _LAYOUTS
 from crankwork.note.wording import Words

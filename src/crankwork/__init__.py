@@ -53,8 +53,7 @@ if TYPE_CHECKING:
     from crankwork.report.notebook import Picture
     from crankwork.report.summary import summary_text
     from crankwork.study.optimise import Optimum, optimise
-    from crankwork.study.solve import Solution, solve
-    from crankwork.study.solve_several import SeveralSolutions, solve_several
+    from crankwork.study.solve import SeveralSolutions, Solution, solve, solve_several
     from crankwork.study.spread import Spreads, spread
     from crankwork.study.variants import Swept, sweep
 
@@ -86,7 +85,7 @@ _HOMES = {
     "RenamedKeyWarning": "errors",
     "Results": "analysis",
     "Segment": "mechanism.driver",
-    "SeveralSolutions": "study.solve_several",
+    "SeveralSolutions": "study.solve",
     "Solution": "study.solve",
     "Spreads": "study.spread",
     "Swept": "study.variants",
@@ -106,7 +105,7 @@ _HOMES = {
     "scotch_yoke": "mechanism.catalog",
     "slotted_press": "mechanism.catalog",
     "solve": "study.solve",
-    "solve_several": "study.solve_several",
+    "solve_several": "study.solve",
     "spread": "study.spread",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",

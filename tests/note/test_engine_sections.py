@@ -175,7 +175,7 @@ def test_the_dimensions_are_as_long_as_bore_and_stroke(name, bore, stroke):
     spans = [
         np.abs(np.diff(item.points, axis=0))[0] for item in added if isinstance(item, Polyline) and not item.closed
     ]
-    along, up = spans[4], spans[5]
+    along, up = spans[2], spans[5]
     assert along[1] == up[0] == 0
     assert along[0] / up[1] == pytest.approx(bore / stroke, rel=2e-3)
     everything = np.vstack([item.points for item in added if isinstance(item, Polyline)])

@@ -220,8 +220,7 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: 
 
         click.echo(expanded(options.file, options.settings, options.language), nl=False)
         return
-    from crankwork.report.assumptions import screen_lines, sentence_lists
-    from crankwork.report.notices import notice_text
+    from crankwork.report.notices import notice_text, screen_lines, sentence_lists
     from crankwork.report.summary import description_text
 
     if options.as_json and not circuits:
@@ -628,9 +627,8 @@ def solve(
 ) -> None:
     """Find the numbers of a file that make values what is wanted: "piston_force@33deg = 0" --for crank.speed."""
     from crankwork.description.document import load
-    from crankwork.study.solve import solution_data, solution_text
+    from crankwork.study.solve import several_data, several_text, solution_data, solution_text, solve_several
     from crankwork.study.solve import solve as solved
-    from crankwork.study.solve_several import several_data, several_text, solve_several
 
     limits = list(itertools.zip_longest(low, high, fillvalue=None))
     if len(limits) > len(fields) or (limits and len(low or high) != len(high or low)):

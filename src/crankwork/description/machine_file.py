@@ -279,7 +279,7 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | 
 
         return build_compressor(read_values, reader)
     if keys is ROTOR_FILE:
-        from crankwork.description.rotor_build import build_rotor  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.description.torque_build import build_rotor  # noqa: PLC0415 - loaded where it is needed
 
         return build_rotor(read_values, reader)
     if keys in _LINKAGES:

@@ -18,7 +18,7 @@ from crankwork.quantities.quantity import use_numbers
 from crankwork.report.display import for_readers, link_numbers, reader_units
 from crankwork.report.summary import provenance
 from crankwork.show.dxf import dxf
-from crankwork.show.pdf import pdf as page
+from crankwork.show.formats import pdf as page
 from crankwork.show.svg import svg
 from crankwork.units import use_units
 

@@ -1,16 +1,17 @@
-"""Flywheel, motor and speed in a note."""
+"""Flywheel, motor and speed in a note, and the motion in time of a machine that is let go."""
 
 from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from crankwork.analysis import Array
 from crankwork.analysis.motor_choice import SERIES_SOURCE, selection_of
 from crankwork.locale import capital
-from crankwork.note.document import Block, Bold, Citation, Math, Paragraph
+from crankwork.note.document import Block, Bold, Citation, Math, Paragraph, Table
 from crankwork.note.lines import WHEEL_SIZES
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -35,9 +36,11 @@ from crankwork.note.parts import (
     turning,
     works,
 )
-from crankwork.note.tables import angle_table, position_tables, quantity_column
+from crankwork.note.tables import Column, angle_table, position_tables, quantity_column, quantity_columns
 from crankwork.note.torque import HARMONICS, ONE, repeat_interval
+from crankwork.note.wording import named
 from crankwork.quantities.key import key_of
+from crankwork.report.display import row_name
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
 # of the speed over a cycle, that in which a flywheel is found first
@@ -49,6 +52,10 @@ _DIGITS = defaultdict(lambda: 4, crank_speed=6)
 _COLUMNS = (
     "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
 )  # fmt: skip
+_DYNAMICS = "artobolevsky_1988, ch. 15"
+_ROWS = 21
+_MOST_EVENTS = 24
+_SHOWN = ("time", "crank_angle", "crank_speed", "angular_acceleration", "kinetic_energy", "potential_energy")
 
 
 def _by_methods(material: Material) -> Iterator[Block]:
@@ -164,6 +171,50 @@ _OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")
 _IS_EXACT = every(_is_wanted, has("flywheel_inertia.exact"))
 _STEADY = Text("steady", {"speed": amount("steady_speed", "rpm"), "fluctuation": number("steady_fluctuation")})
+
+
+def _driven(material: Material) -> Iterator[Block]:
+    """Yield how the machine is let go, and what drives it."""
+    words, wanted = material.words, material.machine.transient
+    if wanted is None:
+        return
+    driven = "transient_motor" if wanted.motor else "transient_torque" if wanted.torque else "transient_free"
+    yield words.paragraph(
+        driven,
+        angle=words.amount(wanted.start, "deg"),
+        speed=words.amount(wanted.speed, "rad/s"),
+        torque=words.amount(wanted.torque, "N*m"),
+    )
+
+
+def _motion(material: Material) -> Iterator[Block]:
+    """Yield a table of some rows of the motion."""
+    columns = material.results.listings["transient"].columns
+    count = len(columns["time"])
+    rows = np.unique(np.round(np.linspace(0, count - 1, min(_ROWS, count))).astype(int))
+    keys = [*(key for key in _SHOWN if np.any(columns[key])), *named(columns, "slider_displacement")]
+    yield _table("transient", {key: columns[key][rows] for key in keys}, material)
+
+
+def _events(material: Material) -> Iterator[Block]:
+    """Yield a table of what happened."""
+    happened = material.results.listings.get("transient_events")
+    if happened is not None:
+        names = [row_name(name, material.words.language) for name in happened.names[:_MOST_EVENTS]]
+        shown = {key: column[:_MOST_EVENTS] for key, column in happened.columns.items()}
+        yield _table("transient_events", shown, material, names)
+
+
+def _table(caption: str, columns: Mapping[str, Array], material: Material, names: Sequence[str] = ()) -> Table:
+    """Return columns as a table, rows called by names where they have some."""
+    made = quantity_columns(material, columns, columns)
+    if names:
+        made.insert(0, Column((material.words.column("event"),), names))
+    rows = list(zip(*(column.entries for column in made), strict=True))
+    align = "l" * bool(names) + "r" * len(columns)
+    return material.words.table(caption, [column.heading for column in made], rows, align, caption)
+
+
 SECTIONS = (
     Section("evenness", (
         Head("evenness"), When(every(_OF_ENERGY, lacks(_IS_EXACT)), (Text("evenness_of_all"),)),
@@ -199,4 +250,12 @@ SECTIONS = (
         Head("law"), When(has("crank_speed"), (Text("law"), Places("speeds", _OF_ENERGY_AND_SPEED), Shown(("speed",)))),
         When(has("steady_speed"), (_STEADY,)),
     ), lambda material: turning(material) and any(map(material.has, ("crank_speed", "steady_speed")))),
+    Section("transient", (
+        Head("transient"), Text("transient_equation", {"source": Citation(_DYNAMICS)}), _driven,
+        Text("transient_end", {
+            "time": amount("transient_time", "s"), "turn": amount("final_turn", "deg"),
+            "speed": amount("final_speed", "rad/s"),
+        }),
+        _motion, Shown(("transient",)), _events,
+    ), lambda material: turning(material) and material.has("transient")),
 )  # fmt: skip

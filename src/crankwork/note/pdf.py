@@ -14,7 +14,6 @@ from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import Expression, text
 from crankwork.locale import ErrorMessage, translate
 from crankwork.note.captions import LANGUAGE_TAGS, caption, continued
-from crankwork.note.characters import typst_string
 from crankwork.note.document import (
     Bibliography,
     Block,
@@ -34,6 +33,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
     side_by_side,
+    typst_string,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
 from crankwork.note.flow import TOGETHER, flow, is_whole

@@ -19,14 +19,11 @@ from crankwork.note import (
     data,
     flywheel,
     forces,
-    friction,
     gas,
     motion,
     quality,
-    structure,
     torque,
     torsion,
-    transient,
 )
 from crankwork.note.captions import printed_date
 from crankwork.note.document import (
@@ -91,9 +88,9 @@ _CRANK_GEAR: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 # every section of a note; of several with one name the first whose condition holds
 SECTIONS: tuple[Section, ...] = (
-    *data.SECTIONS, *structure.SECTIONS, *motion.SECTIONS, *quality.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
-    *torque.SECTIONS, *friction.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS,
-    *torsion.SECTIONS, *transient.SECTIONS, *closing.SECTIONS,
+    *data.SECTIONS, *motion.SECTIONS, *quality.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
+    *torque.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS,
+    *torsion.SECTIONS, *closing.SECTIONS,
 )  # fmt: skip
 
 

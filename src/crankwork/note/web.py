@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from crankwork.browser import script, style
 from crankwork.locale import translate
 from crankwork.note.captions import caption
-from crankwork.note.characters import xml_text
 from crankwork.note.document import (
     Bibliography,
     Block,
@@ -27,10 +26,11 @@ from crankwork.note.document import (
     Table,
     TitlePage,
     side_by_side,
+    xml_text,
 )
 from crankwork.note.equations import printed_equation
 from crankwork.note.interactive import bar, controls, look, page_data, stored_data_element, symbol_html
-from crankwork.note.mathml import mathml_box
+from crankwork.note.math import mathml_box
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.word_parts import inline_box
 from crankwork.quantities import Language

@@ -9,7 +9,6 @@ from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import Expression
 from crankwork.locale import translate
 from crankwork.note.captions import caption
-from crankwork.note.characters import xml_text
 from crankwork.note.document import (
     Bold,
     Cell,
@@ -24,6 +23,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
     cell_length,
+    xml_text,
 )
 from crankwork.note.equations import formula_of
 from crankwork.note.flow import is_whole

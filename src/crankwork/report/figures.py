@@ -19,7 +19,15 @@ from crankwork.locale import ErrorMessage, translate
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import use_numbers
-from crankwork.report.balance import balance_ellipses, balance_orders, curved_loci
+from crankwork.report.balance import (
+    balance_ellipses,
+    balance_orders,
+    balance_polygons,
+    curved_loci,
+    has_polygons,
+    phase_stars,
+    torque_harmonics,
+)
 from crankwork.report.bearings import (
     big_end_polar,
     crankpin_load,
@@ -40,7 +48,15 @@ from crankwork.report.flywheel import (
     speed_curve,
     wittenbauer,
 )
-from crankwork.report.forces import force_law, forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
+from crankwork.report.forces import (
+    force_law,
+    forces_over_cycle,
+    has_force_plans,
+    has_lever,
+    lever_figure,
+    piston_forces,
+    plans_of_forces,
+)
 from crankwork.report.gas import (
     chamber_indicator,
     indicator,
@@ -51,25 +67,24 @@ from crankwork.report.gas import (
     rod_loads,
     stage_indicator,
 )
-from crankwork.report.harmonics import phase_stars, torque_harmonics
-from crankwork.report.lever import has_lever, lever_figure
 from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of, quantity_of
 from crankwork.report.motion import brix, centrodes, curved_paths, has_centrodes, kinematics, path_figure, tolle
 from crankwork.report.plans import acceleration_plan, velocity_plan
 from crankwork.report.positions import position_plans
-from crankwork.report.rotor import balance_polygons, has_polygons
 from crankwork.report.tables import any_nonzero
 from crankwork.report.torque import (
     accumulated_torque,
+    campbell,
     cylinder_torques,
     has_turning_moment,
     loops,
+    natural_modes,
     torque,
+    torsional_response,
     total_tangential_force,
     total_torque,
     turning_moment,
 )
-from crankwork.report.torsion import campbell, natural_modes, torsional_response
 from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import Graph
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing, Style

@@ -10,7 +10,6 @@ from crankwork.analysis.rounding_noise import summary_without_rounding
 from crankwork.locale import ErrorMessage, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import SUBJECTS, Language, subject
-from crankwork.report.assumptions import assumption_texts, idle_texts, screen_lines, sentence_lists
 from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.display import (
     display_key,
@@ -23,7 +22,7 @@ from crankwork.report.display import (
     rounded,
     symbol,
 )
-from crankwork.report.notices import notice_text
+from crankwork.report.notices import assumption_texts, idle_texts, notice_text, screen_lines, sentence_lists
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine

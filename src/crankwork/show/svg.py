@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.show.alt_text import alt_text
 from crankwork.show.scene import (
     CAP_HEIGHT,
     INDEX,
@@ -32,7 +31,7 @@ from crankwork.show.scene import (
     simplified,
     visible_points_of_each,
 )
-from crankwork.show.theme import Palette, Theme, palette_of, themed
+from crankwork.show.theme import Palette, Theme, alt_text, palette_of, themed
 
 _BLACK = "#000000"
 # values written as 0, and the zeros at the end of a number of three decimals

@@ -40,11 +40,11 @@ from crankwork.report.look import figure_title
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
-from crankwork.show.alt_text import alt_text
 from crankwork.show.animation import Animation
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
 from crankwork.show.scene import Drawing
+from crankwork.show.theme import alt_text
 from crankwork.studio.form import additions, form, stated_text, with_addition
 from crankwork.studio.sketch import dyads, from_pmks, handles, is_pmks, measured, missing, redrawn, sketched, swapped
 from crankwork.study.figures import map_drawings
