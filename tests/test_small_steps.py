@@ -42,9 +42,9 @@ from crankwork.note.wording import Words
 from crankwork.page import sliders
 from crankwork.report import drawing
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.animated_svg import _short_number, moving_svg
 from crankwork.show.formats import gif
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, ChartBox, Text
+from crankwork.show.svg import _short_number, moving_svg
 from crankwork.show.theme import fill_colours
 from crankwork.studio import session, sketch
 from crankwork.studio.form import additions, with_addition

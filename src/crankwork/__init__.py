@@ -46,8 +46,8 @@ if TYPE_CHECKING:
     from crankwork.mechanism.driver import Law, MotionLaw, Segment
     from crankwork.mechanism.mechanism import Mechanism
     from crankwork.method import Method
-    from crankwork.note.contents import note_of, written_note
     from crankwork.note.options import NoteOptions
+    from crankwork.note.sections import note_of, written_note
     from crankwork.quantities import QUANTITIES
     from crankwork.report.figures import figures
     from crankwork.report.notebook import Picture
@@ -98,7 +98,7 @@ _HOMES = {
     "four_bar": "mechanism.catalog",
     "json_schema": "description.machine_file",
     "load": "description.document",
-    "note_of": "note.contents",
+    "note_of": "note.sections",
     "optimise": "study.optimise",
     "read": "description.machine_file",
     "read_machine": "description.machine_file",
@@ -116,7 +116,7 @@ _HOMES = {
     "watt_six_bar": "mechanism.catalog",
     "whitworth": "mechanism.catalog",
     "with_method": "analysis",
-    "written_note": "note.contents",
+    "written_note": "note.sections",
 }
 
 __all__ = [

@@ -11,9 +11,8 @@ import pytest
 from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.locale.numbers import number
 from crankwork.note.document import Equation, Figure, Heading, Math, Strong
-from crankwork.note.equations import printed_equation
+from crankwork.note.equations import by_area, printed_equation, with_area
 from crankwork.note.layout import Box, Upright
-from crankwork.note.per_area import by_area, with_area
 from crankwork.quantities import LANGUAGES
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area

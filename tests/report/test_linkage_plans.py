@@ -17,8 +17,7 @@ from crankwork.report import plans, positions
 from crankwork.report.figures import drawings
 from crankwork.report.forces import _separated_sides
 from crankwork.report.look import Style
-from crankwork.report.plans import velocity_plan
-from crankwork.report.positions import position_plans
+from crankwork.report.plans import position_plans, velocity_plan
 from crankwork.show.scene import Text as SceneText
 from crankwork.show.scene import extent
 from each import for_each

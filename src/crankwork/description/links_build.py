@@ -10,9 +10,14 @@ from typing import Any
 
 from crankwork.analysis.gas_chambers import traced_linkage
 from crankwork.analysis.motion_range import find_reachable_motion
-from crankwork.description.build import build_method, check_inertia_ratio, crank_speed
-from crankwork.description.drive_build import read_drive, read_flywheel
-from crankwork.description.joints_build import build_bearings, build_friction, build_shaft, check_friction, check_shaft
+from crankwork.description.build import build_method, check_inertia_ratio, crank_speed, read_drive, read_flywheel
+from crankwork.description.crankshaft_build import (
+    build_bearings,
+    build_friction,
+    build_shaft,
+    check_friction,
+    check_shaft,
+)
 from crankwork.description.measured_build import (
     add_questions,
     build_diagram,
@@ -34,9 +39,8 @@ from crankwork.description.range_checks import (
     without_redundant,
     without_unshared,
 )
-from crankwork.description.schema import Values, no_effect_message
+from crankwork.description.schema import Values, no_effect_message, stated_numbers
 from crankwork.description.stages_build import stage_valves
-from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.dynamics.tabulated_inertia import TabulatedBody
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfCycle, Vessel

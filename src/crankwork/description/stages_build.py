@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from crankwork.analysis.stages import stage_states, stage_values
-from crankwork.description.build import build_method, crank_speed
-from crankwork.description.drive_build import read_drive
-from crankwork.description.schema import Values
-from crankwork.description.stated import stated_numbers
+from crankwork.description.build import build_method, crank_speed, read_drive
+from crankwork.description.schema import Values, stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.loads.indicator import DiagramError
 from crankwork.loads.stages import Stages

@@ -36,7 +36,6 @@ from crankwork.note.document import (
     typst_string,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
-from crankwork.note.flow import TOGETHER, flow, is_whole
 from crankwork.note.layout import (
     Apply,
     Box,
@@ -53,11 +52,11 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import Numbering, numbering
+from crankwork.note.numbering import TOGETHER, Numbering, flow, is_whole, numbering
 from crankwork.note.symbols import symbol_box
 from crankwork.note.table_width import SIZES, fits, one_line_widths, room
 from crankwork.quantities import Language
-from crankwork.show.chart_layout import MM
+from crankwork.show.canvas import MM
 from crankwork.show.svg import svg
 from crankwork.sources import cite
 

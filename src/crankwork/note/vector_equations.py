@@ -60,8 +60,7 @@ from crankwork.report.display import key_unit, link_label, link_numbers, symbol
 from crankwork.report.forces import arm_symbol, force_symbol, torque_symbol
 from crankwork.report.look import Style, position_sign, position_text
 from crankwork.report.plans import acceleration_plan, vector_mark, velocity_plan
-from crankwork.show.canvas import marked
-from crankwork.show.chart_layout import current_layout, use_layout
+from crankwork.show.canvas import current_layout, marked, use_layout
 from crankwork.show.scene import Drawing
 from crankwork.units import to_si
 

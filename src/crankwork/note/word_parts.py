@@ -26,7 +26,6 @@ from crankwork.note.document import (
     xml_text,
 )
 from crankwork.note.equations import formula_of
-from crankwork.note.flow import is_whole
 from crankwork.note.layout import (
     Apply,
     Box,
@@ -44,7 +43,7 @@ from crankwork.note.layout import (
 )
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import Numbering
+from crankwork.note.numbering import Numbering, is_whole
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import Language
 

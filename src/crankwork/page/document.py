@@ -30,8 +30,8 @@ from crankwork.formula.traced_value import (
 from crankwork.locale import capital, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.notation import ARGUMENTS, argument_unit
-from crankwork.note.definitions import definition_text
-from crankwork.note.equations import shown_values, symbolic, value_symbol, value_text
+from crankwork.note.captions import printed_unit
+from crankwork.note.equations import definition_text, shown_values, symbolic, value_symbol, value_text
 from crankwork.note.explain import Place, has_own_symbol, meaning_of_argument, of_angle
 from crankwork.note.interactive import (
     bar,
@@ -45,7 +45,6 @@ from crankwork.note.interactive import (
     words,
 )
 from crankwork.note.math import mathml_box
-from crankwork.note.printed_units import printed_unit
 from crankwork.page.sliders import LivePage, SliderDesigns, scale
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.key import key_of

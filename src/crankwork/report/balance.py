@@ -12,9 +12,17 @@ from crankwork.analysis.load_diagrams import Locus
 from crankwork.analysis.rotor_balance import polygons
 from crankwork.locale import translate
 from crankwork.report.look import Drawn
-from crankwork.show.canvas import BLACK, WIDER, Canvas, fitted_lines, text_width
+from crankwork.show.canvas import (
+    BLACK,
+    WIDER,
+    Canvas,
+    columns_of,
+    current_layout,
+    fitted_lines,
+    scaled_height,
+    text_width,
+)
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, legend, legend_height, round_ticks, small_text
-from crankwork.show.chart_layout import columns_of, current_layout, scaled_height
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASHED, SOLID
 

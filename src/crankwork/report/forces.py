@@ -31,9 +31,21 @@ from crankwork.report.look import (
     scale_text,
 )
 from crankwork.report.plans import draw_vectors, node_name, vector_mark
-from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines, plain, text_width
+from crankwork.show.canvas import (
+    FINE,
+    GREY,
+    WIDER,
+    Canvas,
+    current_layout,
+    fitted_lines,
+    is_narrow,
+    plain,
+    points_per_mm,
+    round_scale,
+    scaled_height,
+    text_width,
+)
 from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_remark
-from crankwork.show.chart_layout import FINE, current_layout, is_narrow, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Drawing, Style
 

@@ -14,7 +14,7 @@ from crankwork.analysis.sampled_cylinders import SampledCylinder
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed
 from crankwork.show.animation import Part, part
-from crankwork.show.chart_layout import round_scale
+from crankwork.show.canvas import round_scale
 from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, extent, line, moved, use_layout
 
 # how much of gas is seen at its least and its greatest pressure

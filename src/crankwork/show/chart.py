@@ -14,8 +14,20 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale.numbers import number
 from crankwork.quantities import Language
 from crankwork.show import scene
-from crankwork.show.canvas import BLACK, GREY, LIGHT, WIDER, Canvas, fitted_lines, marked, text_width
-from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.canvas import (
+    BLACK,
+    GREY,
+    LIGHT,
+    WIDER,
+    Canvas,
+    current_layout,
+    fitted_lines,
+    marked,
+    points_per_mm,
+    round_scale,
+    scaled_height,
+    text_width,
+)
 from crankwork.show.label_placement import name_curves
 from crankwork.show.scene import DASH_DOT, SOLID, Anchor, Style
 

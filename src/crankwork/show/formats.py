@@ -11,11 +11,10 @@ from typing import Any
 
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.locale import ErrorMessage
-from crankwork.show.animated_svg import moving_svg
 from crankwork.show.animation import Animation
 from crankwork.show.dxf import dxf
 from crankwork.show.scene import Drawing
-from crankwork.show.svg import svg
+from crankwork.show.svg import moving_svg, svg
 from crankwork.show.theme import Theme, alt_text
 
 # takes the fraction that is done, from 0 to 1
