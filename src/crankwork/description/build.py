@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from crankwork.description.measured_build import build_gas
 from crankwork.description.schema import Values, stated_numbers
@@ -235,6 +235,29 @@ def build_method(values: Values, reader: Reader) -> Method:
         return EXACT
     rod = values["rod"] or method.rod
     return method if rod == method.rod else Method(**{**vars(method), "rod": rod})
+
+
+def exact_method(values: Values, reader: Reader) -> Method:
+    """Return the method of a file without a mechanism; report one that is not exact."""
+    method = build_method(values["method"], reader)
+    if not method.is_exact:
+        reader.add_error("method.kinematics", ErrorMessage("turning_exact"))
+    return method
+
+
+def machine_alone(
+    values: Values,
+    method: Method,
+    speed: float,
+    **parts: Any,  # noqa: ANN401 - of kinds of their own
+) -> Machine:
+    """Return a machine of parts without a mechanism. [rad/s]"""
+    if "table" in values.table.keys:
+        table = values["table"]
+        parts |= {"table_step": table.degrees("step"), "table_special": tuple(table.degrees("special_angles"))}
+    mechanism = Mechanism(Crank(radius=0.0), ())
+    title, stated = values["title"] or "", stated_numbers(values)
+    return Machine(mechanism, speed=speed, title=title, method=method, stated=stated, **parts)
 
 
 def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tuple[float, float, float] | None:

@@ -1,4 +1,4 @@
-"""From the values of a machine file to an engine, cylinders, bearings, and to friction and loads in joints."""
+"""From the values of a machine file to crankshaft, cylinders, bearings, and to friction and bearings of a linkage."""
 
 from __future__ import annotations
 

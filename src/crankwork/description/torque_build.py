@@ -11,14 +11,13 @@ from typing import NamedTuple
 
 from crankwork.analysis.given_torques import analyse_turning
 from crankwork.cylinders.planes import PlaneMass, Rotor, Sector, arrangements, sector_moment
-from crankwork.description.build import build_method, crank_speed, read_drive, read_flywheel
+from crankwork.description.build import crank_speed, exact_method, machine_alone, read_drive, read_flywheel
 from crankwork.description.links_keys import FORMS
-from crankwork.description.schema import Values, stated_numbers
+from crankwork.description.schema import Values
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
-from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.method import Method
 from crankwork.shaft.torque_diagram import (
     Harmonic,
@@ -70,9 +69,7 @@ class _Shaft(NamedTuple):
 
 def build_turning(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of a shaft with torques, or None after complaints."""
-    method = build_method(values["method"], reader)
-    if not method.is_exact:
-        reader.add_error("method.kinematics", ErrorMessage("turning_exact"))
+    method = exact_method(values, reader)
     flywheel, crank = values["flywheel"], values["crank"]
     stated, largest = (crank_speed(crank[key], method) if key in crank else None for key in ("speed", "largest_speed"))
     speed = stated or largest or _mean_of_speeds(flywheel)
@@ -88,17 +85,7 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
         reader.add_error("table.step", ErrorMessage("transient_rows", rows=rows, most=_MOST_ROWS))
     if reader.problems or turning is None:
         return None
-    machine = Machine(
-        Mechanism(Crank(radius=0.0), ()),
-        speed=speed,
-        title=values["title"] or "",
-        turning=turning,
-        drive=drive,
-        method=method,
-        table_step=values["table"].degrees("step"),
-        table_special=tuple(values["table"].degrees("special_angles")),
-        stated=stated_numbers(values),
-    )
+    machine = machine_alone(values, method, speed, turning=turning, drive=drive)
     return machine if largest is None else _slowed(machine, turning, values, reader)
 
 
@@ -353,9 +340,7 @@ def _check_balance(turning: ShaftTorques, reader: Reader) -> None:
 
 def build_rotor(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of masses on a shaft, or None after complaints."""
-    method, table = build_method(values["method"], reader), values["rotor"]
-    if not method.is_exact:
-        reader.add_error("method.kinematics", ErrorMessage("turning_exact"))
+    method, table = exact_method(values, reader), values["rotor"]
     train, crank = table["locomotive"], values["crank"]
     speed = crank_speed(crank["speed"], method) if "speed" in crank else None
     if {"speed", "wheel_diameter"} <= set(train):
@@ -373,16 +358,7 @@ def build_rotor(values: Values, reader: Reader) -> Machine | None:
         reader.add_error("rotor.masses", error.args[0])
     if rotor is None or reader.problems:
         return None
-    return Machine(
-        Mechanism(Crank(radius=0.0), ()),
-        speed=speed or 1.0,
-        title=values["title"] or "",
-        rotor=replace(rotor, has_speed=speed is not None),
-        method=method,
-        table_step=values["table"].degrees("step"),
-        table_special=tuple(values["table"].degrees("special_angles")),
-        stated=stated_numbers(values),
-    )
+    return machine_alone(values, method, speed or 1.0, rotor=replace(rotor, has_speed=speed is not None))
 
 
 def _check_sectors(rotor: Rotor, sizes: Sequence[float], reader: Reader) -> None:
@@ -432,11 +408,7 @@ def _rotor(table: Values, reader: Reader) -> Rotor:
 
 def build_torsion_alone(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of discs on shafts alone, or None after complaints."""
-    from crankwork.description.build import build_method, crank_speed  # noqa: PLC0415 - which engines build this with
-
-    method = build_method(values["method"], reader)
-    if not method.is_exact:
-        reader.add_error("method.kinematics", ErrorMessage("turning_exact"))
+    method = exact_method(values, reader)
     model = build_torsion(values["torsion"], reader)
     stated = values["crank"]["speed"]
     speed = crank_speed(stated, method) if stated else 0.0
@@ -444,17 +416,7 @@ def build_torsion_alone(values: Values, reader: Reader) -> Machine | None:
         reader.add_error("crank.speed", ErrorMessage("missing", advice=('speed = "1500 rpm"',)))
     if reader.problems or model is None:
         return None
-    return Machine(
-        Mechanism(Crank(radius=0.0), ()),
-        speed=speed or 1.0,
-        title=values["title"] or "",
-        turning=ShaftTorques(None, None, _TURN),
-        method=method,
-        table_step=values["table"].degrees("step"),
-        table_special=tuple(values["table"].degrees("special_angles")),
-        stated=stated_numbers(values),
-        torsion=model,
-    )
+    return machine_alone(values, method, speed or 1.0, turning=ShaftTorques(None, None, _TURN), torsion=model)
 
 
 def build_torsion(values: Values, reader: Reader, throws: int = 0, radius: float = 0.0) -> TorsionModel | None:
