@@ -11,11 +11,11 @@ from typing import Any, TypeVar
 import numpy as np
 
 import crankwork
-from crankwork.note.contents import note_of
 from crankwork.note.document import Block, Equation, Figure, Heading, ItemList, Math, Note, Paragraph, Table
 from crankwork.note.equations import printed_equation
 from crankwork.note.layout import PrintedEquation
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.note.sheets import Paper, TitleBlock, drawn_sheets
 from crankwork.note.sheets.sheet import Sheet
 from crankwork.quantities import Language

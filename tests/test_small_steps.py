@@ -35,16 +35,16 @@ from crankwork.locale.numbers import number
 from crankwork.mechanism.structure import _longest_loop
 from crankwork.mechanism.table_reader import linkage_from
 from crankwork.note import material
-from crankwork.note.friction import _friction_of_joint
+from crankwork.note.forces import _friction_of_joint
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets.sheet import _LAYOUTS
 from crankwork.note.wording import Words
 from crankwork.page import sliders
 from crankwork.report import drawing
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.animated_svg import _short_number, moving_svg
 from crankwork.show.formats import gif
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, ChartBox, Text
+from crankwork.show.svg import _short_number, moving_svg
 from crankwork.show.theme import fill_colours
 from crankwork.studio import session, sketch
 from crankwork.studio.form import additions, with_addition

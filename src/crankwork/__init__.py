@@ -46,15 +46,14 @@ if TYPE_CHECKING:
     from crankwork.mechanism.driver import Law, MotionLaw, Segment
     from crankwork.mechanism.mechanism import Mechanism
     from crankwork.method import Method
-    from crankwork.note.contents import note_of, written_note
     from crankwork.note.options import NoteOptions
+    from crankwork.note.sections import note_of, written_note
     from crankwork.quantities import QUANTITIES
     from crankwork.report.figures import figures
     from crankwork.report.notebook import Picture
     from crankwork.report.summary import summary_text
     from crankwork.study.optimise import Optimum, optimise
-    from crankwork.study.solve import Solution, solve
-    from crankwork.study.solve_several import SeveralSolutions, solve_several
+    from crankwork.study.solve import SeveralSolutions, Solution, solve, solve_several
     from crankwork.study.spread import Spreads, spread
     from crankwork.study.variants import Swept, sweep
 
@@ -86,7 +85,7 @@ _HOMES = {
     "RenamedKeyWarning": "errors",
     "Results": "analysis",
     "Segment": "mechanism.driver",
-    "SeveralSolutions": "study.solve_several",
+    "SeveralSolutions": "study.solve",
     "Solution": "study.solve",
     "Spreads": "study.spread",
     "Swept": "study.variants",
@@ -99,14 +98,14 @@ _HOMES = {
     "four_bar": "mechanism.catalog",
     "json_schema": "description.machine_file",
     "load": "description.document",
-    "note_of": "note.contents",
+    "note_of": "note.sections",
     "optimise": "study.optimise",
     "read": "description.machine_file",
     "read_machine": "description.machine_file",
     "scotch_yoke": "mechanism.catalog",
     "slotted_press": "mechanism.catalog",
     "solve": "study.solve",
-    "solve_several": "study.solve_several",
+    "solve_several": "study.solve",
     "spread": "study.spread",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
@@ -117,7 +116,7 @@ _HOMES = {
     "watt_six_bar": "mechanism.catalog",
     "whitworth": "mechanism.catalog",
     "with_method": "analysis",
-    "written_note": "note.contents",
+    "written_note": "note.sections",
 }
 
 __all__ = [

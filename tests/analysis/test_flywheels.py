@@ -6,8 +6,8 @@ import pytest
 
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import Setting, read_machine, template
-from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.note.web import web
 from crankwork.report.figures import figures
 

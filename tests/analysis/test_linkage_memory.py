@@ -20,8 +20,8 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import TorqueOnLink
-from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.note.web import web
 
 NAMES = ("four-bar", "crank-shaper", "toggle-press", "scotch-yoke", "whitworth", "press", "stephenson-six-bar")

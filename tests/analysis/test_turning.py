@@ -16,8 +16,8 @@ from crankwork.analysis.given_torques import turning_diagram
 from crankwork.description.machine_file import read, read_machine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import LANGUAGES
-from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.note.web import web
 from crankwork.report.figures import drawings, figures
 from crankwork.report.tables import sheets

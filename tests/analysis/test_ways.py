@@ -10,7 +10,7 @@ from crankwork import read, read_machine, template
 from crankwork.analysis.assembly_modes import assembly_modes
 from crankwork.errors import CrankworkError
 from crankwork.locale import LANGUAGES
-from crankwork.report.assembly_modes_text import assembly_modes_data, assembly_modes_text
+from crankwork.report.summary import assembly_modes_data, assembly_modes_text
 from four_bars import four_bar_of as four_bar
 
 pytestmark = pytest.mark.elsewhere

@@ -26,8 +26,8 @@ import numpy as np
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read_machine
 from crankwork.errors import CrankworkError, InputError
-from crankwork.note.contents import note_of, sheets_of, written_note
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of, sheets_of, written_note
 from crankwork.report.results_folder import results_folder
 from crankwork.report.summary import description_text, summary_data, summary_text
 

@@ -163,7 +163,7 @@ def test_the_workbook_holds_givens_checks_charts_and_the_same_numbers_as_the_tab
     crankwork, machine_file, monkeypatch, many
 ) -> None:
     # of many rows a workbook waits in files
-    monkeypatch.setattr("crankwork.report.workbook._MANY", many)
+    monkeypatch.setattr("crankwork.report.results_folder._MANY", many)
     _run(crankwork, machine_file(), "-o", "out", "--no-figures", "--lang", "ru")
     with zipfile.ZipFile("out/tables.xlsx") as book:
         assert book.testzip() is None

@@ -270,7 +270,7 @@ def test_a_disk_that_is_full_of_the_rows_of_a_workbook_is_told(crankwork, machin
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("crankwork.report.workbook._MANY", 100)
+    monkeypatch.setattr("crankwork.report.results_folder._MANY", 100)
     monkeypatch.setattr("xlsxwriter.worksheet.Worksheet._write_single_row", full)
     answer = crankwork("run", machine_file(), "-o", "out", "--no-figures")
     check_mistakes(answer)

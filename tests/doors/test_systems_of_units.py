@@ -11,9 +11,9 @@ import re
 import pytest
 
 import crankwork
-from crankwork.note.contents import note_of, written_note
 from crankwork.note.explain import explanation
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of, written_note
 from crankwork.report.summary import summary_data, summary_text
 from crankwork.report.tables import csv_of_sheet, sheets
 
@@ -99,7 +99,7 @@ def test_what_was_taken_for_what_is_told() -> None:
 
 @pytest.mark.parametrize("many", [100, 500_000])
 def test_workbooks_of_the_same_results_are_the_same_bytes(monkeypatch, many) -> None:
-    from crankwork.report.workbook import workbook
+    from crankwork.report.results_folder import workbook
 
-    monkeypatch.setattr("crankwork.report.workbook._MANY", many)
+    monkeypatch.setattr("crankwork.report.results_folder._MANY", many)
     assert workbook(engine("metric")) == workbook(engine("metric"))

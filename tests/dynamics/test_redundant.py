@@ -9,8 +9,8 @@ import pytest
 import crankwork
 from crankwork.errors import CrankworkError
 from crankwork.locale import LANGUAGES, in_language
-from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.note.web import web
 from crankwork.report.summary import summary_text
 from each import for_each

@@ -16,10 +16,10 @@ from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import TracedValue
 from crankwork.machine import Bearings, Drive, Engine
-from crankwork.note.contents import note_of
 from crankwork.note.document import Note
 from crankwork.note.lines import Group, lines_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.quantities import Language
 from machine_texts import POINTS_ENGINE
 

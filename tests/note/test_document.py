@@ -17,16 +17,14 @@ from crankwork.formula.expression import FORMULAS
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
-from crankwork.note.captions import caption, place_in_source
-from crankwork.note.characters import plain_text
-from crankwork.note.contents import WRITERS, check_format, written_note
-from crankwork.note.document import Citation, Equation, Figure, Heading, Note, Paragraph, Reference, Table
+from crankwork.note.captions import caption, place_in_source, printed_unit
+from crankwork.note.document import Citation, Equation, Figure, Heading, Note, Paragraph, Reference, Table, plain_text
 from crankwork.note.equations import printed_equation, shown_values
 from crankwork.note.layout import SPACE, Fence, Row, Sign, Upright, row, width
 from crankwork.note.legends import legend
 from crankwork.note.math import enough_digits
 from crankwork.note.numbering import numbering
-from crankwork.note.printed_units import printed_unit
+from crankwork.note.sections import WRITERS, check_format, written_note
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.quantities import LANGUAGES
 from crankwork.units import UNITS

@@ -13,11 +13,10 @@ from crankwork.description.keys import MACHINE_FILE
 from crankwork.description.links_keys import LINKAGE_FILE, ROTOR_FILE, TRANSFER_FILE, TURNING_FILE
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import InputError
-from crankwork.note.contents import WRITERS, note_of, written_note
 from crankwork.note.document import Heading, TitlePage
 from crankwork.note.material import Material
 from crankwork.note.options import NoteOptions
-from crankwork.note.sections import SECTIONS, sections_of
+from crankwork.note.sections import SECTIONS, WRITERS, note_of, sections_of, written_note
 from crankwork.quantities import LANGUAGES
 from each import for_each
 

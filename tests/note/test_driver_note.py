@@ -12,7 +12,7 @@ from crankwork.note.web import web
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
 from crankwork.report.summary import description_text, summary_text
-from crankwork.show.animated_svg import moving_svg
+from crankwork.show.svg import moving_svg
 from notes import blocks, note, results, sheets
 
 # how the driver moves: a cylinder on the frame, a slider, an angle at a joint, a table, a cylinder between two links

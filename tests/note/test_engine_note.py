@@ -12,10 +12,10 @@ import crankwork
 from crankwork.errors import CrankworkError
 from crankwork.locale import texts
 from crankwork.note import material as materials
-from crankwork.note.contents import note_of
 from crankwork.note.document import Bibliography, Equation, Heading, Paragraph
 from crankwork.note.equations import printed_equation
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.note.wording import Words
 from crankwork.quantities import LANGUAGES
 from crankwork.report.figures import figures as drawn_figures

@@ -11,9 +11,8 @@ import pytest
 from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.locale.numbers import number
 from crankwork.note.document import Equation, Figure, Heading, Math, Strong
-from crankwork.note.equations import printed_equation
+from crankwork.note.equations import by_area, printed_equation, with_area
 from crankwork.note.layout import Box, Upright
-from crankwork.note.per_area import by_area, with_area
 from crankwork.quantities import LANGUAGES
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area
@@ -175,7 +174,7 @@ def test_the_dimensions_are_as_long_as_bore_and_stroke(name, bore, stroke):
     spans = [
         np.abs(np.diff(item.points, axis=0))[0] for item in added if isinstance(item, Polyline) and not item.closed
     ]
-    along, up = spans[4], spans[5]
+    along, up = spans[2], spans[5]
     assert along[1] == up[0] == 0
     assert along[0] / up[1] == pytest.approx(bore / stroke, rel=2e-3)
     everything = np.vstack([item.points for item in added if isinstance(item, Polyline)])

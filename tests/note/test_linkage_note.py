@@ -19,9 +19,9 @@ from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import evaluate
 from crankwork.locale import texts, translate
 from crankwork.machine import Document
-from crankwork.note.contents import WRITERS, note_of, sheets_of
 from crankwork.note.document import Equation, Figure, ItemList, Math, Table
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import WRITERS, note_of, sheets_of
 from crankwork.note.symbols import subscript
 from crankwork.note.wording import Words
 from crankwork.quantities import LANGUAGES

@@ -7,10 +7,10 @@ import pytest
 
 import crankwork
 from crankwork.analysis.vector_polygons import worked_position
-from crankwork.note.contents import note_of
 from crankwork.note.document import Equation, Figure, Heading, Paragraph
 from crankwork.note.layout import Digits, Fence, Fraction, Root, Row, Script, Sign, Upright
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.report.display import link_label
 from crankwork.show import scene
 from each import for_each

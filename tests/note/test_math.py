@@ -38,8 +38,7 @@ from crankwork.note.layout import (
     row,
     width,
 )
-from crankwork.note.math import formula_box
-from crankwork.note.mathml import mathml_box
+from crankwork.note.math import formula_box, mathml_box
 from crankwork.note.pdf import typst_box
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.note.word_parts import omml_box

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from crankwork.note.contents import written_note
 from crankwork.note.document import Heading, Note, Person, Table, TitlePage
+from crankwork.note.sections import written_note
 from each import failing, for_each
 from notes import note
 

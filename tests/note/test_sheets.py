@@ -20,12 +20,11 @@ from crankwork.kinematics.piston import textbook_displacement
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.note.sheets import Paper, drawn_sheets
 from crankwork.note.sheets.packing import Picture
-from crankwork.note.sheets.sheet import sheets_with
-from crankwork.note.sheets.table import text_block
+from crankwork.note.sheets.sheet import sheets_with, text_block
 from crankwork.quantities import LANGUAGES
 from crankwork.report.figures import drawings
 from crankwork.report.look import drawn_of
-from crankwork.show.chart_layout import FINE, round_scale
+from crankwork.show.canvas import FINE, round_scale
 from crankwork.show.scene import ChartBox, Hatch, Polyline, extent, hatch_lines, text_width
 from crankwork.show.svg import svg
 from each import failing, for_each

@@ -13,11 +13,11 @@ import pytest
 import crankwork
 from crankwork.analysis.all_cylinders import with_engine_results
 from crankwork.locale import capital, translate
-from crankwork.note.contents import note_of, written_note
 from crankwork.note.document import Contents, Equation, Figure, Heading, Note, Paragraph, TitlePage, side_by_side
 from crankwork.note.numbering import equation_source, numbering
 from crankwork.note.options import NoteOptions
 from crankwork.note.readings import reading
+from crankwork.note.sections import note_of, written_note
 from crankwork.note.wording import Words
 from crankwork.quantities import LANGUAGES, Language
 from crankwork.report.display import is_per_area, key_unit

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from crankwork.note.document import Figure, Heading, PageBreak, Paragraph, Table
-from crankwork.note.flow import PAGE, flow
+from crankwork.note.numbering import PAGE, flow
 from crankwork.show.scene import Drawing
 
 FIGURE = Figure(Drawing("t", "en", 160.0, 100.0, ()), "Figure", "a figure")

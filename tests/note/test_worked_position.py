@@ -9,10 +9,10 @@ import pytest
 
 import crankwork
 from crankwork.locale.numbers import unit_name
-from crankwork.note.contents import note_of
 from crankwork.note.document import Equation, Figure, ItemList, Math, Paragraph, Reference, Table
 from crankwork.note.numbering import numbering
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from crankwork.units import UNITS, to_si
 from each import failing
 from note.built import EXAMPLES

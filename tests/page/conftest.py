@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 import crankwork
-from crankwork.note.contents import note_of, written_note
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of, written_note
 from crankwork.page.document import page as written
 from crankwork.quantities import Language
 from page.slid import EXAMPLES, document

@@ -10,7 +10,7 @@ import pytest
 from crankwork import analyse
 from crankwork.description.machine_file import read
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.animated_svg import moving_svg
+from crankwork.show.svg import moving_svg
 from page.slid import EXAMPLES
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

@@ -24,12 +24,11 @@ from crankwork.machine import Cylinder, Machine
 from crankwork.mechanism.mechanism import RRP, Crank, Mechanism, slider_crank
 from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.animated_svg import moving_svg
 from crankwork.show.animation import data
 from crankwork.show.formats import FORMATS, gif, mp4
 from crankwork.show.inline import inline_film
 from crankwork.show.scene import ChartBox, Circle, Drawing, Polyline, extent, rectangle
-from crankwork.show.svg import svg
+from crankwork.show.svg import moving_svg, svg
 from each import for_each
 from shown import FILES, film_of_file, in_parts, machine_of, results_of
 

@@ -16,8 +16,8 @@ from crankwork.mechanism.mechanism import slider_crank
 from crankwork.mechanism.structure import structure
 from crankwork.mechanism.table_reader import linkage_from
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.animated_svg import moving_svg
 from crankwork.show.scene import Polyline, extent
+from crankwork.show.svg import moving_svg
 from each import for_each
 from linkages import LINKAGES, SHAPER
 from shown import film_of_file, in_parts, results_of

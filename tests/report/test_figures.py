@@ -18,9 +18,9 @@ from crankwork.quantities import LANGUAGES
 from crankwork.report.figures import drawings, figure_names, figures
 from crankwork.report.look import drawn_of, figure_title
 from crankwork.report.tables import sheets
-from crankwork.show.alt_text import alt_text
 from crankwork.show.scene import printable
 from crankwork.show.svg import svg
+from crankwork.show.theme import alt_text
 from each import for_each
 from shown import FEW, REST, figures_of, in_parts, machine_of, results_of
 

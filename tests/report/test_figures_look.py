@@ -15,10 +15,10 @@ from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
 from crankwork.report.notices import skipped_figure_notes
+from crankwork.show.canvas import ChartLayout, use_layout
 from crankwork.show.chart import Graph, round_ticks, sheet
-from crankwork.show.chart_layout import ChartLayout, use_layout
+from crankwork.show.formats import png
 from crankwork.show.label_placement import mark_point
-from crankwork.show.pdf import png
 from crankwork.show.scene import ChartBox, Circle, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
 from crankwork.show.svg import svg
 from each import for_each

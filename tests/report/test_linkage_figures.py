@@ -16,12 +16,10 @@ from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.quantities import LANGUAGES, QUANTITIES
-from crankwork.report.curves import curves
-from crankwork.report.figures import drawings
+from crankwork.report.figures import curves, drawings
 from crankwork.report.look import angle_ticks, axis_title, math_symbol
 from crankwork.report.motion import instant_centres
-from crankwork.show.canvas import plain
-from crankwork.show.chart_layout import ChartLayout, use_layout
+from crankwork.show.canvas import ChartLayout, plain, use_layout
 from crankwork.show.scene import Polyline, extent
 from crankwork.show.scene import Text as SceneText
 from crankwork.show.svg import svg

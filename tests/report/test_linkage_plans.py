@@ -13,12 +13,11 @@ from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.skeleton import skeleton
 from crankwork.analysis.vector_polygons import accelerations, velocities
 from crankwork.analysis.zhukovsky_lever import zhukovsky_lever
-from crankwork.report import plans, positions
+from crankwork.report import plans
 from crankwork.report.figures import drawings
 from crankwork.report.forces import _separated_sides
 from crankwork.report.look import Style
-from crankwork.report.plans import velocity_plan
-from crankwork.report.positions import position_plans
+from crankwork.report.plans import position_plans, velocity_plan
 from crankwork.show.scene import Text as SceneText
 from crankwork.show.scene import extent
 from each import for_each
@@ -116,7 +115,7 @@ def test_a_pole_has_a_letter_of_its_own(monkeypatch):
 
 
 def test_numbers_of_plans_do_not_grow_with_the_points_of_a_link(monkeypatch):
-    seen = _labelled(monkeypatch, positions)
+    seen = _labelled(monkeypatch, plans)
     points = {f"Q{k}": [0.01 * k, 0.001 * k * k] for k in range(12)}
     known = {**SHAPER, "links": {**SHAPER["links"], "link": {**SHAPER["links"]["link"], "points": points}}}
     position_plans(mechanism_from(known)[0])

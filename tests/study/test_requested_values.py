@@ -16,7 +16,7 @@ from crankwork.analysis.requested_values import with_requested
 from crankwork.study.optimise import best_of
 from crankwork.study.parameter_map import mapped
 from crankwork.study.runner import ExecutionOptions, run_study
-from crankwork.study.solve_several import several_text, solve_several
+from crankwork.study.solve import several_text, solve_several
 from crankwork.study.study_file import load_study
 from crankwork.study.study_text import found_files, optimum_files
 from machine_texts import POINTS_ENGINE

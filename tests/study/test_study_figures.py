@@ -9,10 +9,8 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import template
 from crankwork.locale import LANGUAGES
 from crankwork.quantities import QUANTITIES
-from crankwork.show.canvas import BLACK
-from crankwork.show.chart import ChartBox, Graph, round_ticks, sheet
-from crankwork.show.chart_layout import MM
-from crankwork.show.contour import Field, contours
+from crankwork.show.canvas import BLACK, MM
+from crankwork.show.chart import ChartBox, Field, Graph, contours, round_ticks, sheet
 from crankwork.show.scene import Circle, Polyline, Text, pen_of
 from crankwork.study.figures import found_drawings, map_drawings
 from crankwork.study.parameter_map import mapped

@@ -220,8 +220,7 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: 
 
         click.echo(expanded(options.file, options.settings, options.language), nl=False)
         return
-    from crankwork.report.assumptions import screen_lines, sentence_lists
-    from crankwork.report.notices import notice_text
+    from crankwork.report.notices import notice_text, screen_lines, sentence_lists
     from crankwork.report.summary import description_text
 
     if options.as_json and not circuits:
@@ -229,7 +228,7 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: 
     machine = options.machine
     if circuits and options.as_json:
         from crankwork.analysis.assembly_modes import assembly_modes
-        from crankwork.report.assembly_modes_text import assembly_modes_data
+        from crankwork.report.summary import assembly_modes_data
 
         click.echo(json.dumps(assembly_modes_data(machine, assembly_modes(machine)), ensure_ascii=False, indent=1))
         return
@@ -238,7 +237,7 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: 
     click.echo(description_text(results, options.language))
     if circuits:
         from crankwork.analysis.assembly_modes import assembly_modes
-        from crankwork.report.assembly_modes_text import assembly_modes_text
+        from crankwork.report.summary import assembly_modes_text
 
         click.echo(assembly_modes_text(machine, assembly_modes(machine), options.language))
     for notice in results.notices:
@@ -339,14 +338,14 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     grid: bool,
 ) -> None:
     """Write the calculation note of a machine as PDF, Word or web page."""
-    from crankwork.note.contents import check_format, written_note
+    from crankwork.note.sections import check_format, written_note
 
     sheets = sheets or grid or paper is not None
     # before anything else is loaded
     check_format(output, with_sheets=sheets)
     from crankwork import files
-    from crankwork.note.contents import note_of, sheets_of
     from crankwork.note.options import NoteOptions
+    from crankwork.note.sections import note_of, sheets_of
 
     files.check_files(output, overwrite=options.overwrite)
     note_options = NoteOptions(
@@ -628,9 +627,8 @@ def solve(
 ) -> None:
     """Find the numbers of a file that make values what is wanted: "piston_force@33deg = 0" --for crank.speed."""
     from crankwork.description.document import load
-    from crankwork.study.solve import solution_data, solution_text
+    from crankwork.study.solve import several_data, several_text, solution_data, solution_text, solve_several
     from crankwork.study.solve import solve as solved
-    from crankwork.study.solve_several import several_data, several_text, solve_several
 
     limits = list(itertools.zip_longest(low, high, fillvalue=None))
     if len(limits) > len(fields) or (limits and len(low or high) != len(high or low)):

@@ -23,8 +23,7 @@ from crankwork.description.machine_file import (
     read_machine,
     steps_of,
 )
-from crankwork.description.schema import TableSpec, Values
-from crankwork.description.stated import stated_numbers
+from crankwork.description.schema import TableSpec, Values, stated_numbers
 from crankwork.description.toml_edit import document, locate, with_value, without_key
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError, InputError, UnknownKeyError

@@ -34,12 +34,12 @@ from crankwork.description.keys import (
     TIME,
     TITLE,
     TORQUE,
+    TORSION,
     TRANSFER_DOCUMENT,
     TURNING_DOCUMENT,
     with_defaults,
 )
 from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, OneForAll, TableSpec
-from crankwork.description.torsion_keys import TORSION
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
 from crankwork.mechanism.driver import LawKind
 from crankwork.shaft.torque_diagram import Shape

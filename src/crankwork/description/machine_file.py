@@ -43,8 +43,18 @@ from crankwork.description.links_keys import (
     TURNING_FILE,
 )
 from crankwork.description.measured_build import add_questions, in_file
-from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, NumberOr, TableSpec, Values, nearest_name
-from crankwork.description.stated import file_inputs, mistaken_names
+from crankwork.description.schema import (
+    ListOf,
+    MapOf,
+    NameOr,
+    Nested,
+    NumberOr,
+    TableSpec,
+    Values,
+    file_inputs,
+    mistaken_names,
+    nearest_name,
+)
 from crankwork.description.table_file import resolve_file_columns
 from crankwork.description.toml_edit import locate
 from crankwork.description.value_types import Reader, is_one_line, look_alikes
@@ -266,7 +276,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
 def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | None:
     """Return the machine of values that were read, or None after complaints."""
     if keys is TORSION_FILE:
-        from crankwork.description.torsion_build import build_torsion_alone  # noqa: PLC0415 - few files load it
+        from crankwork.description.torque_build import build_torsion_alone  # noqa: PLC0415 - few files load it
 
         return build_torsion_alone(read_values, reader)
     if keys in (TURNING_FILE, PRESS_FILE):
@@ -279,7 +289,7 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | 
 
         return build_compressor(read_values, reader)
     if keys is ROTOR_FILE:
-        from crankwork.description.rotor_build import build_rotor  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.description.torque_build import build_rotor  # noqa: PLC0415 - loaded where it is needed
 
         return build_rotor(read_values, reader)
     if keys in _LINKAGES:

@@ -1,4 +1,4 @@
-"""From the values of a machine file to the pressure in a cylinder or chamber: its diagram, or measured samples."""
+"""From the values of a machine file to the pressure of a gas, its diagram or measured samples, and its combustion."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.description.combustion_build import build_combustion
 from crankwork.description.schema import Values, nearest_name, no_effect_message
 from crankwork.description.table_file import FileTable, read_list, read_table
-from crankwork.description.value_types import Reader
+from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import TracedValue, given
 from crankwork.kinematics.crank_grid import Array
@@ -27,6 +26,7 @@ from crankwork.loads.valves import Pipe, Valves, discharge_of_height, suction_of
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Cylinder, Gas
 from crankwork.units import UNITS
+from crankwork.working_cycle.burning_analysis import BurningAnalysis
 
 # words of headings in the languages of test benches
 _WORDS = {
@@ -530,3 +530,38 @@ def _check_points(values: Values, path: str, reader: Reader) -> None:
                     place,
                     near if nearest else ErrorMessage("no_point", name=name, known=", ".join(known)[:120], path=path),
                 )
+
+
+def build_combustion(values: Values, reader: Reader, *, is_absolute: bool) -> BurningAnalysis | None:
+    """Return what the analysis of combustion is told, None without it or after complaints."""
+    stated, path = values.get("combustion"), "gas.combustion"
+    if stated is None or not {"from", "to"} <= set(stated):
+        return None
+    if not is_absolute:
+        reader.add_error(path, no_effect_message("pressures", "gauge", ("absolute",)))
+    start, end, cycle = stated.degrees("from"), stated.degrees("to"), float(values["cycle"].split()[0])
+    windows = [_pair(window) for window in stated["windows"] if window and None not in window]
+    burning = _pair(stated["burning"]) if stated["burning"] and None not in stated["burning"] else None
+    for key, first, last, low, high in (
+        ("to", start, end, 0.0, cycle),
+        *(("burning", *pair, start, end) for pair in ([burning] if burning else [])),
+        *((f"windows[{number}]", *window, 0.0, cycle) for number, window in enumerate(windows, start=1)),
+    ):
+        if not low <= first < last <= high:
+            reader.add_error(f"{path}.{key}", ErrorMessage("angles_between", low=f"{low:g}", high=f"{high:g}"))
+    return BurningAnalysis(
+        start,
+        end,
+        stated["adiabatic_exponent"],
+        stated["exponent_slope"],
+        stated.si("temperature"),
+        stated.si("wall_temperature"),
+        burning=burning,
+        windows=tuple(windows),
+    )
+
+
+def _pair(angles: list[MeasuredValue]) -> tuple[float, float]:
+    """Return two angles. [deg]"""
+    first, last = (round(math.degrees(angle.value), 9) for angle in angles)
+    return first, last

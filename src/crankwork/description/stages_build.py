@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from crankwork.analysis.stages import stage_states, stage_values
-from crankwork.description.build import build_method, crank_speed
-from crankwork.description.drive_build import read_drive
-from crankwork.description.schema import Values
-from crankwork.description.stated import stated_numbers
+from crankwork.description.build import crank_speed, exact_method, machine_alone, read_drive
+from crankwork.description.schema import Values, stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.loads.indicator import DiagramError
 from crankwork.loads.stages import Stages
@@ -31,9 +29,7 @@ _BY_STAGE, _BY_COOLER = (
 
 def build_compressor(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of stages without a mechanism, or None after complaints."""
-    method, table = build_method(values["method"], reader), values["stages"]
-    if not method.is_exact:
-        reader.add_error("method.kinematics", ErrorMessage("turning_exact"))
+    method, table = exact_method(values, reader), values["stages"]
     drive, has_speed = read_drive(values, reader), "crank" in values
     if reader.problems or table is None:
         return None
@@ -42,10 +38,7 @@ def build_compressor(values: Values, reader: Reader) -> Machine | None:
         reader.add_error("stages.shaft_power", ErrorMessage("same", others=["efficiency"]))
     speed = crank_speed(values["crank"]["speed"], method) if has_speed else 1.0
     stages = Stages(_numbers(table), has_speed=has_speed)
-    machine = Machine(
-        Mechanism(Crank(radius=0.0), ()), speed=speed, title=values["title"] or "", stages=stages, drive=drive,
-        method=method, stated=stated_numbers(values),
-    )  # fmt: skip
+    machine = machine_alone(values, method, speed, stages=stages, drive=drive)
     _check(stages, machine, table, reader)
     if reader.problems:
         return None

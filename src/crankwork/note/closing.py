@@ -10,23 +10,22 @@ import numpy as np
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
+from crankwork.note.captions import printed_unit
 from crankwork.note.data import GEAR, cycle_keys, fixed_distances, link_lengths
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Section, Shown, drawn, every, full, has
-from crankwork.note.printed_units import printed_unit
 from crankwork.note.readings import agree, concluded, concluded_of_linkage
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
-from crankwork.report.assumptions import plain_assumptions
 from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.drawing import dimensioned, film_of
 from crankwork.report.look import kind_of
-from crankwork.report.notices import notice_text
+from crankwork.report.notices import notice_text, plain_assumptions
 from crankwork.report.summary import warning_text
 from crankwork.report.tables import any_nonzero
 

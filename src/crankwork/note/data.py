@@ -38,9 +38,9 @@ from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import SUBJECTS
-from crankwork.report.dimensions import Length
 from crankwork.report.display import key_unit, link_label
-from crankwork.report.scheme import crank_gear_scheme
+from crankwork.report.drawing import crank_gear_scheme
+from crankwork.report.sketch import Length
 from crankwork.report.summary import results_method
 
 GEAR = ("rotational_speed", "angular_acceleration", "stroke", "crank_radius", "rod_length", "rod_ratio", "offset")

@@ -7,7 +7,9 @@ Where a block takes runs, a plain text is a run too.
 from __future__ import annotations
 
 import datetime as dt
+import html
 import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -18,6 +20,15 @@ from crankwork.note.layout import PrintedEquation
 from crankwork.quantities import Language
 from crankwork.show.scene import Drawing
 from crankwork.units import METRIC, DisplayUnits
+
+_BLANK = re.compile("[\t\n\v\f\r\x85\u2028\u2029]")
+# controls, halves of characters, what is none, and the byte order mark, which PDF/A forbids
+_NONE = re.compile(
+    "[\\x00-\\x1f\\x7f-\\x9f\\ud800-\\udfff\\ufdd0-\\ufdef\\ufeff"
+    + "".join(f"\\U{plane:04x}fffe\\U{plane:04x}ffff" for plane in range(17))
+    + "]"
+)
+
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
@@ -255,3 +266,25 @@ class Note:
     def headline(self) -> str:
         """The title, each number on one line with what follows it."""
         return re.sub(r"(?<=\d) (?=[^\W\d])", "\u00a0", self.title)
+
+
+def plain_text(text: str) -> str:
+    r"""Return text in composed letters, on one line and without control characters.
+
+    Examples
+    --------
+    >>> plain_text("one\ntwo\x07")
+    'one two'
+    """
+    return _NONE.sub("", _BLANK.sub(" ", unicodedata.normalize("NFC", text)))
+
+
+def typst_string(text: str) -> str:
+    """Return text as a string of Typst, in which no character but these two means anything."""
+    escaped = plain_text(text).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
+
+def xml_text(text: str) -> str:
+    """Return text for an element or attribute of XML or HTML."""
+    return html.escape(plain_text(text), quote=True)

@@ -8,15 +8,18 @@ in as many as give the printed value again; all are roundings: no value is compu
 
 from __future__ import annotations
 
+import math
+import operator
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
 from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
-from crankwork.formula.expression import Formula, Operation, Symbol, record, takes_angle, text
+from crankwork.formula.expression import Expression, Formula, Operation, Symbol, evaluate, record, takes_angle, text
 from crankwork.locale import texts
 from crankwork.locale.numbers import number
-from crankwork.note.definitions import definition_box, definition_text
+from crankwork.notation import ARGUMENTS
+from crankwork.note.captions import display_unit, printed_unit
 from crankwork.note.document import Equation
 from crankwork.note.layout import (
     EQUALS,
@@ -24,6 +27,7 @@ from crankwork.note.layout import (
     Apply,
     Box,
     Fence,
+    Fraction,
     Letter,
     PrintedEquation,
     Row,
@@ -36,11 +40,10 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import RESULT_DIGITS, enough_digits, formula_box, is_exact_pi, whole_degrees
-from crankwork.note.per_area import by_area
-from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
+from crankwork.report.display import is_per_area, key_unit
 from crankwork.report.display import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
 
@@ -59,6 +62,18 @@ _NO_LINKS = (
 _OF_ORDERS = ("free_force", "free_moment", "shaking_moment_amplitude")
 _WITHOUT_ORDER = ("rotating", "counterweights")
 _TIGHT_UNITS = ("°", "%")
+_AREA = Symbol("A")
+Values = list[tuple[float, str]]
+# mean over the cycle: of which quantity
+_MEANS: Mapping[str, str] = MappingProxyType(
+    {
+        "mean_torque": "crank_torque",
+        "mean_driving_torque": "static_torque",
+        "mean_total_torque": "total_torque",
+        "mean_crankpin_load": "crankpin_load",
+        "mean_bearing_load": "bearing_load",
+    }
+)
 
 
 def printed_equation(block: Equation, language: Language, limit: float = LINE_WIDTH) -> PrintedEquation:
@@ -321,3 +336,123 @@ def _angles(step: FormulaLine, language: Language) -> dict[str, str]:
 
 def _fenced(printed: str) -> str:
     return f"({printed})" if printed.startswith("−") else printed
+
+
+def by_area(step: Line, area: float) -> tuple[Line, Values]:
+    """Return a step whose value is divided by the piston area, and its values with their units.
+
+    `area`: [m2].
+    """
+    value, unit = step.value / area, key_unit(step.key, per_area=True)
+    shown, si = float(from_si(value, unit)), coherent_unit(unit)
+    if isinstance(step, SumLine):
+        terms = [term._replace(value=float(from_si(term.value / area, unit))) for term in step.terms]
+        return step._replace(terms=tuple(terms), value=shown), [(shown, unit)]
+    if not isinstance(step, FormulaLine):
+        return step._replace(value=shown), [(shown, unit)]
+    match step.expression:
+        case Operation(operator.mul, (factor, Symbol() as other)) if other == _AREA:
+            # a force of a pressure
+            kept = {name: put_in for name, put_in in step.values.items() if name != _AREA.name}
+            return step._replace(tree=factor, values=kept, value=value), [(value, si), (shown, unit)]
+    forces = _forces(step)
+    values = {name: put_in / area if name in forces else put_in for name, put_in in step.values.items()}
+    if not forces or not math.isclose(evaluate(step.expression, values), value, rel_tol=1e-9, abs_tol=1e-9):
+        return step, [(step.value, coherent_unit(key_unit(step.key))), (shown, unit)]
+    if {*forces.values()} != {unit}:
+        return step._replace(values=values, value=value), [(value, si), (shown, unit)]
+    values |= {name: float(from_si(values[name], unit)) for name in forces}
+    return step._replace(values=values, value=shown), [(shown, unit)]
+
+
+def with_area(step: FormulaLine, area: float) -> FormulaLine:
+    """Return a step whose forces and masses are those of the whole piston: each times the area. [m2]"""
+    forces = _forces(step)
+    if not forces or step.expression is None:
+        return step
+    values = {name: put_in / area if name in forces else put_in for name, put_in in step.values.items()}
+    return step._replace(tree=_times_area(step.expression, forces), values={**values, _AREA.name: area})
+
+
+def _times_area(tree: Expression, names: dict[str, str]) -> Expression:
+    match tree:
+        case Symbol(name) if name in names:
+            return Operation(operator.mul, (tree, _AREA))
+        case Operation(function, operands):
+            return Operation(function, tuple(_times_area(operand, names) for operand in operands))
+    return tree
+
+
+def _forces(step: FormulaLine) -> dict[str, str]:
+    """Return the arguments of a step that may be given by the piston area, each with its unit then."""
+    named = dict(step.named)
+    kinds = {
+        name: key_of(named[name]).quantity if name in named else ARGUMENTS[name].quantity
+        for name in step.values
+        if name in named or name in ARGUMENTS
+    }
+    known = {name: kind for name, kind in kinds.items() if kind and base_key(kind) in QUANTITIES}
+    return {name: key_unit(kind, per_area=True) for name, kind in known.items() if is_per_area(kind)}
+
+
+def definition_box(key: str, language: Language) -> Box | None:
+    """Return the definition of a value, None where there is none to print."""
+    kind = key_of(key).quantity
+    if kind == "indicated_work":
+        return row(Upright("∮"), _over("diagram_pressure", "cylinder_volume", language))
+    if key == "excess_work":
+        energy = _symbol("kinetic_energy_change", language)
+        return row(Upright("max"), SPACE, energy, Sign("−"), Upright("min"), SPACE, energy)
+    if key == "excess_work.exact":
+        return row(_tangent("max", language), Sign("−"), _tangent("min", language))
+    if kind in _MEANS:
+        share = Fraction(Upright("1"), _symbol("cycle_angle", language))
+        return row(share, Upright("∫"), _over(_MEANS[kind], "crank_angle", language))
+    return None
+
+
+def definition_text(key: str, language: Language) -> str:
+    """Return the definition as one line of text, empty where there is none."""
+    kind = key_of(key).quantity
+    named = (*_MEANS, *_MEANS.values(), "crank_angle", "cycle_angle", "kinetic_energy_change")
+    names = {name: QUANTITIES[name].symbol(language) for name in named}
+    if kind == "indicated_work":
+        return f"∮ {QUANTITIES['diagram_pressure'].symbol(language)} d{QUANTITIES['cylinder_volume'].symbol(language)}"
+    if key == "excess_work":
+        return f"max {names['kinetic_energy_change']} − min {names['kinetic_energy_change']}"
+    if key == "excess_work.exact":
+        slope, inertia = (QUANTITIES[name].symbol(language) for name in ("wittenbauer_slope", "total_reduced_inertia"))
+        return " − ".join(
+            f"{end}({names['kinetic_energy_change']} − {inertia}·{slope}_{end})" for end in ("max", "min")
+        )
+    if kind in _MEANS:
+        return f"1/{names['cycle_angle']}·∫ {names[_MEANS[kind]]} d{names['crank_angle']}"
+    return ""
+
+
+# of which torque the kinetic energy takes what is beyond the mean: its mean, and the sign that it has there
+_BEYOND = {"total_torque": ("mean_total_torque", ""), "static_torque": ("mean_driving_torque", "−")}
+
+
+def integral_text(torque_key: str, language: Language) -> str:
+    """Return the integral of a torque beyond its mean over the crank angle, empty for other keys."""
+    if torque_key not in _BEYOND:
+        return ""
+    mean, sign = _BEYOND[torque_key]
+    torque, mean, phi = (QUANTITIES[name].symbol(language) for name in (torque_key, mean, "crank_angle"))
+    return f"{sign}∫({torque} − {mean}) d{phi}"
+
+
+def _tangent(end: str, language: Language) -> Row:
+    """Return an end of what a tangent cuts off: max (ΔT − J tan ψ_max)."""
+    tangent = symbol_box(f"{QUANTITIES['wittenbauer_slope'].symbol(language)}_{end}")
+    energy, inertia = _symbol("kinetic_energy_change", language), _symbol("total_reduced_inertia", language)
+    return row(Upright(end), SPACE, Fence(row(energy, Sign("−"), inertia, SPACE, tangent)))
+
+
+def _over(key: str, variable: str, language: Language) -> Row:
+    return row(SPACE, _symbol(key, language), SPACE, Upright("d"), _symbol(variable, language))
+
+
+def _symbol(key: str, language: Language) -> Box:
+    return symbol_box(QUANTITIES[key].symbol(language))

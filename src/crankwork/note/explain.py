@@ -39,11 +39,19 @@ from crankwork.locale.numbers import number
 from crankwork.mechanism.joints import joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.notation import ARGUMENTS, argument_unit
-from crankwork.note.definitions import definition_text, integral_text
-from crankwork.note.equations import OF_LINKS, distinct_values, line_parts, shown_values, value_symbol, value_text
+from crankwork.note.captions import printed_unit
+from crankwork.note.equations import (
+    OF_LINKS,
+    definition_text,
+    distinct_values,
+    integral_text,
+    line_parts,
+    shown_values,
+    value_symbol,
+    value_text,
+)
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
-from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import display_key, in_own_units, label, link_label

@@ -1,4 +1,4 @@
-"""The forces in a note: masses and forces of a crank gear, inertia of links, forces in joints, the lever."""
+"""The forces in a note: masses, forces of a crank gear, inertia of links, forces and friction in joints, the lever."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.input_loads import stated_loads
+from crankwork.analysis.input_loads import FrictionInput, stated_friction, stated_loads
 from crankwork.analysis.mechanism import torque_by_routes
 from crankwork.analysis.rounding_noise import without_rounding
-from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
-from crankwork.note.force_equations import compared_forces, equilibrium, has_polygons, inertia_of_links
+from crankwork.note.document import Block, Citation, ItemList, Math, Paragraph, Reference, Run, Runs, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import (
     At,
@@ -24,16 +23,22 @@ from crankwork.note.parts import (
     Shown,
     Text,
     When,
+    amount,
     drawn,
     driven,
     either,
     every,
     full,
+    has,
     lacks,
+    number,
     works,
 )
 from crankwork.note.readings import ROUNDING
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
+from crankwork.note.vector_equations import compared_forces, equilibrium, has_polygons, inertia_of_links
+from crankwork.note.wording import Words, named
+from crankwork.quantities.quantity import own_name
 from crankwork.report.display import key_unit
 from crankwork.report.notices import skipped_figure_notes
 from crankwork.report.tables import any_nonzero
@@ -57,6 +62,12 @@ _INERTIA = (
 _NOTABLE = 0.1
 # decimals of the table of forces that Vietnamese notes print
 _VIETNAMESE = {"gas_force": 5, "inertia_force": 6, "piston_force": 6}
+_SOURCE = "artobolevsky_1988, ch. 11, 14"
+_WITH_FRICTION = (
+    "torque_with_friction", "driver_force_with_friction", "driver_torque_with_friction", "static_torque_with_friction",
+    "instantaneous_efficiency",
+)  # fmt: skip
+_JOINTS = ("friction_torque", "friction_force", "joint_force_with_friction", "normal_force_with_friction")
 
 
 def _per_area(material: Material) -> Iterator[Block]:
@@ -174,6 +185,31 @@ _INERTIA_OF_LINKS: tuple[Part, ...] = (
     Text("inertia_of_links", {"source": Citation(_STATICS)}), At("inertia_loads"), Lines("inertia_loads"),
 )  # fmt: skip
 _IN_JOINTS = ("joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment")
+
+
+def _joints(material: Material) -> Iterator[Block]:
+    """Yield what rubs, and how much."""
+    joints = stated_friction(material.machine)
+    yield ItemList(tuple(_friction_of_joint(joint, material.words) for joint in joints))
+
+
+def _friction_of_joint(joint: FrictionInput, words: Words) -> Runs:
+    """Return the friction of a joint in words."""
+    runs: list[Run] = []
+    for key, (value, unit) in joint.amounts.items():
+        runs += [
+            ", " if runs else f"{own_name('joint_force', joint.name)}: ",
+            Math(words.symbol(key)),
+            f" = {words.amount(value, unit)}",
+        ]
+    return tuple(runs)
+
+
+def _columns(material: Material) -> Iterable[str]:
+    columns = material.columns
+    return any_nonzero([*named(columns, *_WITH_FRICTION), "friction_power", *named(columns, *_JOINTS)], columns)
+
+
 SECTIONS = (
     Section("dynamics", (
         Head("dynamics"), _per_area, Head("masses", 2), _masses,
@@ -212,4 +248,13 @@ SECTIONS = (
         Shown(("process_force", "joint_forces", "force_plans")), compared_forces, _undrawn,
         Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),
     ), _is_loaded),
+    Section("friction", (
+        Head("friction"), Text("rubbing"), _joints, Text("with_friction", {"source": Citation(_SOURCE)}),
+        At("friction"), Lines("friction"), Places("friction", _columns, "friction"),
+        When(has("mean_friction_power"), (
+            Text("mean_friction_power", {"value": amount("mean_friction_power", "W")}),
+        )),
+        When(has("mean_efficiency"), (Text("mean_efficiency", {"value": number("mean_efficiency")}),)),
+        Shown(("friction",)),
+    ), every(drawn, has("friction_power"), lambda material: bool(stated_friction(material.machine)))),
 )  # fmt: skip

@@ -17,6 +17,7 @@ from crankwork.formula.traced_value import Piecewise
 from crankwork.formula.traced_value import Tabulated as TableOfValues
 from crankwork.locale import has_text, translate
 from crankwork.notation import ARGUMENTS, argument_unit
+from crankwork.note.captions import printed_unit
 from crankwork.note.data import cycle_keys
 from crankwork.note.document import Block, Cell, Citation, Equation, Math, Reference, Runs, Table
 from crankwork.note.equations import value_box, value_symbol
@@ -40,7 +41,6 @@ from crankwork.note.parts import (
     machine_has,
     works,
 )
-from crankwork.note.printed_units import printed_unit
 from crankwork.note.symbols import symbol_box
 from crankwork.note.tables import Column, column_table, folded, quantity_column, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit

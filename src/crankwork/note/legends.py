@@ -9,9 +9,9 @@ from crankwork.formula.calculation_lines import FormulaLine, symbols_of
 from crankwork.formula.expression import Formula, record, symbol
 from crankwork.locale import has_text, translate
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
+from crankwork.note.captions import printed_unit
 from crankwork.note.document import Block, Equation, Table
 from crankwork.note.equations import equation_symbol, own_key, value_symbol
-from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import label

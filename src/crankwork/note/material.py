@@ -20,9 +20,9 @@ from crankwork.locale import capital, has_text, translate
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
+from crankwork.note.equations import with_area
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
-from crankwork.note.per_area import with_area
 from crankwork.note.readings import reading
 from crankwork.note.table_width import is_narrow
 from crankwork.note.wording import Words, named
@@ -31,7 +31,7 @@ from crankwork.report.display import is_per_area, key_unit, label
 from crankwork.report.figures import drawings, figure_names
 from crankwork.report.look import figure_title, kind_of
 from crankwork.report.tables import any_nonzero
-from crankwork.show.chart_layout import ChartLayout, use_layout
+from crankwork.show.canvas import ChartLayout, use_layout
 from crankwork.show.scene import Drawing
 from crankwork.units import from_si
 

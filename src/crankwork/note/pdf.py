@@ -14,7 +14,6 @@ from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import Expression, text
 from crankwork.locale import ErrorMessage, translate
 from crankwork.note.captions import LANGUAGE_TAGS, caption, continued
-from crankwork.note.characters import typst_string
 from crankwork.note.document import (
     Bibliography,
     Block,
@@ -34,9 +33,9 @@ from crankwork.note.document import (
     Table,
     TitlePage,
     side_by_side,
+    typst_string,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
-from crankwork.note.flow import TOGETHER, flow, is_whole
 from crankwork.note.layout import (
     Apply,
     Box,
@@ -53,64 +52,17 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import Numbering, numbering
+from crankwork.note.numbering import TOGETHER, Numbering, flow, is_whole, numbering
 from crankwork.note.symbols import symbol_box
 from crankwork.note.table_width import SIZES, fits, one_line_widths, room
 from crankwork.quantities import Language
-from crankwork.show.chart_layout import MM
+from crankwork.resources import read_resource
+from crankwork.show.canvas import MM
 from crankwork.show.svg import svg
 from crankwork.sources import cite
 
 _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.DOTALL)
-_SETTINGS = """
-#set page(paper: "a4", margin: (left: 25mm, right: 15mm, top: 20mm, bottom: 20mm), numbering: "1")
-#set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
-#set par(leading: 0.65em, spacing: 0.75em, justify: true)
-#show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
-#show heading: set block(above: 1.15em, below: 0.7em, sticky: true)
-#show heading: set par(justify: false)
-#show figure.caption: set text(hyphenate: false)
-#show figure.caption: set par(justify: false)
-#show heading.where(level: 1): set text(size: 14pt)
-#show heading.where(level: 2): set text(size: 12pt)
-#show heading.where(level: 3): set text(size: 11pt)
-#set table(inset: (x: 4pt, y: 2.3pt))
-#let ruled(head) = (_, y) => if y == head {
-  (top: 0.7pt + black, bottom: 0.5pt + black)
-} else if y > head { (bottom: 0.3pt + luma(70%)) }
-#set list(marker: [–])
-#let fitted(line) = layout(size => {
-  let wide = measure(line).width
-  if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
-})
-#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.6em, below: 0.6em, grid(
-  columns: (1fr, auto), column-gutter: 0.8em,
-  align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
-  grid(row-gutter: 0.65em, align: center, ..all.pos()), number,
-))
-#show figure.caption: set text(hyphenate: false)
-#show figure.caption: set par(justify: false)
-#let drawing(body, words) = block(breakable: false, width: 100%, above: 0.9em, below: 0.9em, figure(
-  body, caption: words, numbering: none, supplement: none, kind: "drawing",
-))
-#let beside(..parts) = block(breakable: false, above: 0.9em, below: 0.9em, grid(
-  columns: (1fr, 1fr), column-gutter: 6mm, ..parts.pos(),
-))
-#set page(foreground: context {
-  let begun = ()
-  for one in query(<begins>) {
-    let at = one.location().position()
-    if at.page == here().page() and one.value in begun { place(top + left, dx: 25mm, dy: at.y, one.value) }
-    begun.push(one.value)
-  }
-})
-#let again(count, words) = (
-  table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
-)
-#let named(words) = { set text(hyphenate: false); set par(justify: false); words }
-#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, named(words))
-#let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { named(words); v(-16pt) })
-"""
+_SETTINGS = "\n" + read_resource("note", "pdf.typ")
 # one page of any height, on which positions show how high everything is, within a share
 _ENDLESS = "#set page(width: 210mm, height: auto)\n"
 _HEIGHTS = """

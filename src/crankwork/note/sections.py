@@ -1,4 +1,4 @@
-"""A note put together of its cover and its sections: those of its school, or those that its document names."""
+"""The note of a machine and its sheets: a cover, and sections of its school or those that its document names."""
 
 from __future__ import annotations
 
@@ -6,29 +6,25 @@ import datetime as dt
 import itertools
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from pathlib import PurePath
+from typing import cast
 
 from crankwork.analysis import Results
 from crankwork.analysis.all_cylinders import with_engine_results
-from crankwork.errors import CrankworkError
-from crankwork.locale import Language, translate
+from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
+from crankwork.locale import ErrorMessage, Language, translate
 from crankwork.machine import Document
 from crankwork.note import (
     balance,
     bearings,
     closing,
     data,
-    flywheel,
     forces,
-    friction,
     gas,
     motion,
-    quality,
-    structure,
     torque,
-    torsion,
-    transient,
 )
-from crankwork.note.captions import printed_date
+from crankwork.note.captions import printed_date, printed_unit
 from crankwork.note.document import (
     Block,
     Contents,
@@ -47,9 +43,18 @@ from crankwork.note.material import Material
 from crankwork.note.numbering import equation_source
 from crankwork.note.options import NoteOptions
 from crankwork.note.parts import Section, written
-from crankwork.note.printed_units import printed_unit
+from crankwork.note.pdf import pdf
 from crankwork.note.tables import symbol_table
+from crankwork.note.web import web
+from crankwork.note.word import word
+from crankwork.quantities.quantity import use_numbers
+from crankwork.report.display import for_readers, link_numbers, reader_units
 from crankwork.report.gas import FOUR_STROKE
+from crankwork.report.summary import provenance
+from crankwork.show.dxf import dxf
+from crankwork.show.formats import pdf as page
+from crankwork.show.svg import svg
+from crankwork.units import use_units
 
 # who stands on a cover, in the order of each language, and who signs beside the name
 _PEOPLE: dict[Language, tuple[str, ...]] = {
@@ -91,9 +96,8 @@ _CRANK_GEAR: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 # every section of a note; of several with one name the first whose condition holds
 SECTIONS: tuple[Section, ...] = (
-    *data.SECTIONS, *structure.SECTIONS, *motion.SECTIONS, *quality.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
-    *torque.SECTIONS, *friction.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS,
-    *torsion.SECTIONS, *transient.SECTIONS, *closing.SECTIONS,
+    *data.SECTIONS, *motion.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
+    *torque.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *closing.SECTIONS,
 )  # fmt: skip
 
 
@@ -262,3 +266,54 @@ def _when(date: dt.date | None, year: int, language: Language) -> str:
     if date is not None:
         return printed_date(date, language) if language == "en" else str(date.year)
     return str(year) if year else ""
+
+
+@for_readers
+def note_of(results: Results, options: NoteOptions | None = None) -> Note:
+    """Return the calculation note of a machine."""
+    options = options or NoteOptions()
+    with use_numbers(link_numbers(results)):
+        note = note_of_sections(results, options)
+    return replace(note, units=reader_units(results), provenance=provenance(results), results=results)
+
+
+def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:
+    """Return the drawing sheets of a machine in every format, by the ending of their files."""
+    options = options or NoteOptions()
+    if results.machine.alone:
+        raise CrankworkError(ErrorMessage("sheets_of_shaft"))
+    # few notes have sheets
+    from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed
+
+    block = sheets.block_of(results.machine.document, cast("Language", options.order), options.author)
+    paper = sheets.Paper(options.paper, has_grid=options.grid, block=block)
+    with use_numbers(link_numbers(results)):
+        drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area)
+    formats = {"pdf": page, "svg": svg, "dxf": dxf}
+    return {
+        f"-sheet-{number}.{ending}": written(sheet.drawing, "black")
+        for number, sheet in enumerate(drawn, start=1)
+        for ending, written in formats.items()
+    }
+
+
+WRITERS = {".pdf": pdf, ".docx": word, ".html": web}
+_MODULES: dict[str, dict[str, str]] = {".pdf": {"typst": "report"}, ".docx": {"docx": "report"}, ".html": {}}
+
+
+def check_format(name: str, *, with_sheets: bool = False) -> None:
+    """Raise unless a note of this format can be written, before anything is computed."""
+    if PurePath(name).suffix.lower() not in WRITERS:
+        raise CrankworkError(ErrorMessage("note_ending", name=name, known=", ".join(WRITERS)))
+    modules = _MODULES[PurePath(name).suffix.lower()]
+    if with_sheets:
+        modules = modules | {"typst": "report", "ezdxf": "report"}
+    if extras := missing_extras(modules):
+        raise MissingExtraError(ErrorMessage("extra_note"), *extras)
+
+
+def written_note(note: Note, name: str) -> bytes:
+    """Return a note in the format that the ending of a file name asks for."""
+    check_format(name)
+    with use_units(note.units), use_numbers(link_numbers(note.results)):
+        return WRITERS[PurePath(name).suffix.lower()](note)

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from crankwork.analysis import Array
 from crankwork.analysis.results import Listing
 from crankwork.locale import has_text
+from crankwork.note.captions import printed_unit
 from crankwork.note.document import Block, Cell, Math, Run, Runs, Strong, Table
 from crankwork.note.material import Material
-from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.wording import Words
 from crankwork.report.display import displayed, key_unit, label, row_name

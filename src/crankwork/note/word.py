@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 from crankwork.errors import MissingExtraError
 from crankwork.locale import ErrorMessage
 from crankwork.note.captions import LANGUAGE_TAGS, caption
-from crankwork.note.characters import plain_text
 from crankwork.note.document import (
     Bibliography,
     Block,
@@ -32,12 +31,12 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
+    plain_text,
     side_by_side,
 )
 from crankwork.note.equations import printed_equation
-from crankwork.note.flow import LINE, flow
 from crankwork.note.layout import Apply, Box, Fence, Fraction, Marked, Root, Row, Script
-from crankwork.note.numbering import Numbering, numbering
+from crankwork.note.numbering import LINE, Numbering, flow, numbering
 from crankwork.note.word_parts import (
     EQUATION_WIDTH,
     PAGE_BREAK,
@@ -56,8 +55,8 @@ from crankwork.note.word_parts import (
     text_run,
 )
 from crankwork.quantities import Language
-from crankwork.show.chart_layout import MM
-from crankwork.show.pdf import pngs
+from crankwork.show.canvas import MM
+from crankwork.show.formats import pngs
 from crankwork.show.scene import CAP_HEIGHT, text_width
 from crankwork.show.svg import svg
 from crankwork.sources import cite

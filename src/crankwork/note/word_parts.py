@@ -9,7 +9,6 @@ from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import Expression
 from crankwork.locale import translate
 from crankwork.note.captions import caption
-from crankwork.note.characters import xml_text
 from crankwork.note.document import (
     Bold,
     Cell,
@@ -24,9 +23,9 @@ from crankwork.note.document import (
     Table,
     TitlePage,
     cell_length,
+    xml_text,
 )
 from crankwork.note.equations import formula_of
-from crankwork.note.flow import is_whole
 from crankwork.note.layout import (
     Apply,
     Box,
@@ -44,7 +43,7 @@ from crankwork.note.layout import (
 )
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import Numbering
+from crankwork.note.numbering import Numbering, is_whole
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import Language
 

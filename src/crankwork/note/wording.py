@@ -10,10 +10,9 @@ import numpy as np
 
 from crankwork.locale import Language, capital, decimal, has_text, texts, translate
 from crankwork.locale.numbers import number
-from crankwork.note.captions import note_text
+from crankwork.note.captions import note_text, printed_unit
 from crankwork.note.document import Cell, Heading, Math, Paragraph, Run, Runs, Table
 from crankwork.note.equations import value_symbol
-from crankwork.note.printed_units import printed_unit
 from crankwork.note.symbols import owned_symbol
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.key import key_of

@@ -30,8 +30,8 @@ from crankwork.formula.traced_value import (
 from crankwork.locale import capital, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.notation import ARGUMENTS, argument_unit
-from crankwork.note.definitions import definition_text
-from crankwork.note.equations import shown_values, symbolic, value_symbol, value_text
+from crankwork.note.captions import printed_unit
+from crankwork.note.equations import definition_text, shown_values, symbolic, value_symbol, value_text
 from crankwork.note.explain import Place, has_own_symbol, meaning_of_argument, of_angle
 from crankwork.note.interactive import (
     bar,
@@ -44,21 +44,19 @@ from crankwork.note.interactive import (
     unpacked,
     words,
 )
-from crankwork.note.mathml import mathml_box
-from crankwork.note.printed_units import printed_unit
+from crankwork.note.math import mathml_box
 from crankwork.page.sliders import LivePage, SliderDesigns, scale
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.key import key_of
-from crankwork.report.assumptions import sentence_lists
 from crankwork.report.display import display_key, displayed, in_own_units, key_unit, label
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
-from crankwork.report.notices import notice_text
+from crankwork.report.notices import notice_text, sentence_lists
 from crankwork.report.summary import by_subject, check_status, provenance, results_method
-from crankwork.show.alt_text import alt_text
 from crankwork.show.animation import Animation
 from crankwork.show.inline import inline_film, inline_svg
 from crankwork.show.scene import Drawing
+from crankwork.show.theme import alt_text
 from crankwork.sources import cite
 from crankwork.units import UNITS, to_si
 

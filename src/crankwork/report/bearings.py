@@ -15,7 +15,16 @@ from crankwork.analysis.load_diagrams import crankpin_of_one
 from crankwork.analysis.results import Listing
 from crankwork.locale import translate
 from crankwork.report.look import Drawn
-from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines
+from crankwork.show.canvas import (
+    GREY,
+    WIDER,
+    Canvas,
+    columns_of,
+    current_layout,
+    fitted_lines,
+    is_narrow,
+    scaled_height,
+)
 from crankwork.show.chart import (
     ARROW,
     BOTTOM,
@@ -30,7 +39,6 @@ from crankwork.show.chart import (
     sheet,
     small_text,
 )
-from crankwork.show.chart_layout import columns_of, current_layout, is_narrow, scaled_height
 from crankwork.show.label_placement import label_marks, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES
 

@@ -16,8 +16,7 @@ from crankwork.analysis.skeleton import Member, MovingFrame, Skeleton, guide_pos
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import rod_name
 from crankwork.mechanism.linkage import GROUND
-from crankwork.report.dimensions import Length, dimension_lines
-from crankwork.report.sketch import Sketch, forces_in_joints, tints, with_forces
+from crankwork.report.sketch import Length, Sketch, dimension_lines, forces_in_joints, tints, with_forces
 from crankwork.show.animation import Part, part
 from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, line, literal, rectangle, rotation_arrow
 

@@ -16,9 +16,8 @@ from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities.key import key_of
 from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
-from crankwork.show.canvas import WIDER, Canvas, plain, text_width
+from crankwork.show.canvas import WIDER, Canvas, current_layout, plain, points_per_mm, text_width
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, true_slices
-from crankwork.show.chart_layout import current_layout, points_per_mm
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, STYLES, Drawing
 

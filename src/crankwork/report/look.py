@@ -25,9 +25,8 @@ from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, link_label, row_name, symbol
-from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
+from crankwork.show.canvas import GREY, MM, WIDER, Canvas, current_layout, plain, points_per_mm, round_scale, text_width
 from crankwork.show.chart import ChartBox, Graph, round_ticks, write_remark
-from crankwork.show.chart_layout import MM, current_layout, points_per_mm, round_scale
 from crankwork.show.scene import DASH_DOT, Drawing, Pen, printable, rotation_arrow
 from crankwork.units import from_si
 

@@ -21,7 +21,17 @@ from crankwork.report.display import symbol
 from crankwork.report.forces import Line
 from crankwork.report.gas import diagram, gas_exchange, mark_points, named_points
 from crankwork.report.look import Drawn, Style, displayed_values, draw_rotation, figure_title, position_text, scale_text
-from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
+from crankwork.show.canvas import (
+    GREY,
+    WIDER,
+    Canvas,
+    current_layout,
+    is_narrow,
+    plain,
+    points_per_mm,
+    scaled_height,
+    text_width,
+)
 from crankwork.show.chart import (
     BOTTOM,
     DOT,
@@ -35,7 +45,6 @@ from crankwork.show.chart import (
     round_ticks,
     sheet,
 )
-from crankwork.show.chart_layout import current_layout, is_narrow, points_per_mm, scaled_height
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Drawing, flow_rows
 

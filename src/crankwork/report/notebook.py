@@ -18,10 +18,9 @@ from crankwork.quantities import Language
 from crankwork.report.display import displayed, in_own_units, key_unit, label, symbol
 from crankwork.report.drawing import film_of
 from crankwork.report.summary import results_method
-from crankwork.show.animated_svg import moving_svg
 from crankwork.show.formats import FORMATS
 from crankwork.show.scene import Drawing
-from crankwork.show.svg import svg
+from crankwork.show.svg import moving_svg, svg
 from crankwork.show.theme import THEMES, Theme
 
 _LINES = 9

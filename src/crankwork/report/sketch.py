@@ -1,4 +1,4 @@
-"""Drawings of mechanisms before they are placed on paper, and the forces on them: arrows to one scale."""
+"""Drawings of mechanisms before they are placed on paper: forces as arrows to one scale, dimensions (ISO 129-1)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from crankwork.analysis.sampled_cylinders import SampledCylinder
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed
 from crankwork.show.animation import Part, part
-from crankwork.show.chart_layout import round_scale
+from crankwork.show.canvas import round_scale
 from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, extent, line, moved, use_layout
 
 # how much of gas is seen at its least and its greatest pressure
@@ -28,6 +28,11 @@ _SHORTEST, _FREE = 1.6, 0.7
 # how a name stands to its force, turned from its way [deg], and how far off
 _TURNS, _REACHES = (0.0, 45.0, -45.0, 80.0, -80.0, 120.0, -120.0), (1.0, 1.4, 1.9, 2.5)
 _NO_LINE = Pen(0.0)
+# of a dimension: half width and length of its arrowhead, how far extension lines go beyond, the shortest drawn [mm]
+_ARROWHEAD, _BEYOND, _SHORTEST_LINE = (0.5, 2.6), 1.5, 12.0
+# how far lines are from what they measure, of a link and beneath supports, and from everything else at least [mm]
+_OFF, _BELOW, _CLEAR_LINE = (7.0, 10.0, 13.0, 17.0), (15.5, 20.0, 24.5), 5.0
+_PLACES = np.linspace(0.0, 1.0, 15)[:, None]
 
 
 def tints(pressures: Sequence[Array]) -> list[Array]:
@@ -206,3 +211,75 @@ def forces_in_joints(
 
 def _turns(ways: NDArray[np.float64]) -> Array:
     return np.degrees(np.unwrap(np.arctan2(ways[:, 1], ways[:, 0])))
+
+
+class Length(NamedTuple):
+    """The distance of two points, or that along an axis, and what is written there."""
+
+    start: str
+    end: str
+    text: str
+    axis: int | None = None
+
+
+def dimension_lines(
+    lengths: Sequence[Length], points: Mapping[str, Array], obstacles: Array
+) -> tuple[list[Item], Array]:
+    """Return dimension lines clear of links and letters, and what they cover; short ones are left out. [mm]"""
+    links = [points[link.start] + _PLACES * (points[link.end] - points[link.start])
+             for link in lengths if link.axis is None]  # fmt: skip
+    busy, items = np.vstack([obstacles, *points.values(), *links]), list[Item]()
+    for length in lengths:
+        start, end = points[length.start], points[length.end]
+        if np.hypot(*_along(length, start, end)) < _SHORTEST_LINE:
+            continue
+        p, q = min(_choices(length, start, end, busy), key=lambda ends: _crowding(ends[0], ends[1], busy))
+        busy = np.vstack([busy, p + _PLACES * (q - p)])
+        items += _drawn(length, (start, end), (p, q))
+    return items, busy
+
+
+def _along(length: Length, start: Array, end: Array) -> Array:
+    return end - start if length.axis is None else (end - start) * np.eye(2)[length.axis]
+
+
+def _choices(length: Length, start: Array, end: Array, busy: Array) -> Iterator[tuple[Array, Array]]:
+    """Yield the ends of a dimension line, the nearer ones first."""
+    if length.axis is None:
+        across = np.array([-(end - start)[1], (end - start)[0]]) / np.hypot(*(end - start))
+        yield from ((start + side * off * across, end + side * off * across) for off, side in product(_OFF, (1, -1)))
+        return
+    other = 1 - length.axis
+    for off in _BELOW:
+        level = np.eye(2)[other] * (busy[:, other].min() - off if length.axis else min(start[1], end[1]) - off)
+        keep = np.eye(2)[length.axis]
+        yield start * keep + level, end * keep + level
+
+
+def _crowding(start: Array, end: Array, busy: Array) -> float:
+    """Return how much else is near a line."""
+    places = start + _PLACES * (end - start)
+    near = np.hypot(*(places[:, None] - busy[None]).T).T
+    # what is written in the middle needs more room
+    needed = np.where(np.arange(len(places)) == len(places) // 2, 2.0, 1.0) * _CLEAR_LINE
+    return float(np.sum(np.maximum(0.0, needed[:, None] - near) ** 2))
+
+
+def dimension_line(ends: Array, feet: Array, gap: float = 2.0) -> Iterator[Item]:
+    """Yield extension lines from a gap behind the points that are measured, and the line with its arrowheads. [mm]"""
+    along = (feet[1] - feet[0]) / np.hypot(*(feet[1] - feet[0]))
+    for point, foot, ahead in zip(ends, feet, (-along, along), strict=True):
+        away = np.hypot(*(foot - point))
+        out = (foot - point) / away
+        yield line(point + min(gap, away) * out, foot + _BEYOND * out)
+        back, across = foot - _ARROWHEAD[1] * ahead, _ARROWHEAD[0] * np.array([-ahead[1], ahead[0]])
+        yield Polyline(np.array([foot, back + across, back - across]), Pen(0.0), closed=True, fill=0.0)
+    yield line(feet[0], feet[1])
+
+
+def _drawn(length: Length, ends: tuple[Array, Array], feet: tuple[Array, Array]) -> Iterator[Item]:
+    """Yield a dimension line with the length on it."""
+    # a support and its letter stand between
+    yield from dimension_line(np.array(ends), np.array(feet), 2.0 if length.axis is None else _BELOW[0] - 2.0)
+    x, y = ((feet[0] + feet[1]) / 2).tolist()
+    yield Text((x, y - _LETTERS / 2), length.text, _LETTERS, "middle", halo=True)

@@ -14,14 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.show.alt_text import alt_text
-from crankwork.show.animated_svg import film_body
 from crankwork.show.animation import Animation
 from crankwork.show.canvas import marked
 from crankwork.show.chart import true_slices
 from crankwork.show.scene import CAP_HEIGHT, Drawing, Item, LineKind, Pen, Plot, Polyline, Run, Text, pen_of, runs
-from crankwork.show.svg import SvgWriter
-from crankwork.show.theme import KINDS, Theme, curve_kind, fill_colours, palette_of
+from crankwork.show.svg import SvgWriter, film_body
+from crankwork.show.theme import KINDS, Theme, alt_text, curve_kind, fill_colours, palette_of
 
 # deviation of a curve that is invisible on a screen [mm]
 _INVISIBLE_DEVIATION = 0.05

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines, plain, text_width
-from crankwork.show.chart_layout import MM, current_layout, font_size
+from crankwork.show.canvas import GREY, MM, WIDER, Canvas, current_layout, fitted_lines, font_size, plain, text_width
 from crankwork.show.scene import Arc, Circle, Hatch, Item, Polyline, Text, arc_points, pen_of, printable, shade_of
 
 if TYPE_CHECKING:

@@ -26,10 +26,10 @@ from crankwork.errors import CrankworkError, InputError
 from crankwork.locale import ErrorMessage, Language, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.mechanism import Crank
-from crankwork.note.contents import note_of, sheets_of, written_note
 from crankwork.note.explain import place_text
 from crankwork.note.interactive import controls, page_data
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of, sheets_of, written_note
 from crankwork.page.document import TraceExport, follow, page, sentences, tables, values
 from crankwork.page.sliders import FAINT, LivePage, Slider, scale
 from crankwork.quantities.key import key_of
@@ -38,13 +38,13 @@ from crankwork.report.drawing import drawn, film_of
 from crankwork.report.figures import drawings, figure_names
 from crankwork.report.look import figure_title
 from crankwork.report.notices import notice_text
+from crankwork.report.results_folder import workbook
 from crankwork.report.summary import results_method, warning_text
-from crankwork.report.workbook import workbook
-from crankwork.show.alt_text import alt_text
 from crankwork.show.animation import Animation
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
 from crankwork.show.scene import Drawing
+from crankwork.show.theme import alt_text
 from crankwork.studio.form import additions, form, stated_text, with_addition
 from crankwork.studio.sketch import dyads, from_pmks, handles, is_pmks, measured, missing, redrawn, sketched, swapped
 from crankwork.study.figures import map_drawings

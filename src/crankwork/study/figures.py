@@ -14,10 +14,8 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Quantity
 from crankwork.quantities.key import key_of
 from crankwork.report.display import FILE_KEYS, displayed, displayed_column, key_unit, label
-from crankwork.show.canvas import BLACK, GREY, WIDER, fitted_lines, plain, text_width
-from crankwork.show.chart import CIRCLE, DOT, Graph, Row, limits, round_ticks, sheet, small_text
-from crankwork.show.chart_layout import current_layout
-from crankwork.show.contour import Field, contours
+from crankwork.show.canvas import BLACK, GREY, WIDER, current_layout, fitted_lines, plain, text_width
+from crankwork.show.chart import CIRCLE, DOT, Field, Graph, Row, contours, limits, round_ticks, sheet, small_text
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 from crankwork.study.chunks import Histogram, Index, StudyAggregate, feasible_designs, is_shown, thin_front
 from crankwork.study.parameter_map import Map

@@ -26,9 +26,8 @@ from crankwork.kernel.lowering import NotCompiledError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.report.dataset import check_extras
-from crankwork.study.solve import level
 from crankwork.study.variants import MachineVariants, single, threaded
-from crankwork.study.varied_field import stated_limit
+from crankwork.study.varied_field import level, stated_limit
 from crankwork.units import System
 
 # parts of the cycle, each with its own extremes

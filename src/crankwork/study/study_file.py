@@ -21,9 +21,8 @@ from crankwork.description.value_types import Choice, Flag, MeasuredValue, Numbe
 from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage, Language
 from crankwork.study.search import SearchMethod
-from crankwork.study.solve import level_of
 from crankwork.study.variants import check_single
-from crankwork.study.varied_field import VariedField
+from crankwork.study.varied_field import VariedField, level_of
 from crankwork.units import System, use_units
 
 # designs of which all are kept if the file does not say

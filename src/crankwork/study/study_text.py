@@ -19,8 +19,8 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language, capital, in_language, translate
 from crankwork.locale.numbers import aligned, number, unit_name
 from crankwork.report.display import displayed, displayed_column, displayed_size, key_unit, label, plain, rounded
+from crankwork.report.results_folder import workbook_of
 from crankwork.report.tables import Sheet, csv_of_sheet
-from crankwork.report.workbook import workbook_of
 from crankwork.show.canvas import plain as plain_text
 from crankwork.study.chunks import NUMBER, Index, Moments, StudyAggregate, feasible_designs, ranks
 from crankwork.study.study_file import Study

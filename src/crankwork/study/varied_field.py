@@ -16,6 +16,7 @@ from crankwork.description.value_types import shown
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
+from crankwork.report.display import key_unit
 
 # ratio of the ends from which points are spaced by equal ratios
 _FAR = 30.0
@@ -64,14 +65,39 @@ def stated_limit(field: NumericField, written: str | float | None, option: str) 
         return None
     text = str(written).strip()
     try:
-        value = units.parse_in(text, field.unit) if field.unit else float(text.replace(",", "."))
+        value = _parsed(text, field.unit, ErrorMessage("number_plain", value=shown(text), example="0.25"))
     except ValueError as error:
-        mistake = error.args[0] if field.unit else ErrorMessage("number_plain", value=shown(text), example="0.25")
-        raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=mistake)) from None
+        raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=error.args[0])) from None
     if not math.isfinite(value) or not field.low <= value <= field.high:
         low, high = (str(field.written(end)) for end in (field.low, field.high))
         raise CrankworkError(ErrorMessage("limit_outside", option=option, key=field.key, low=low, high=high))
     return value
+
+
+def level(key: str, text: str) -> float:
+    """Return a target in SI; a bare number is in the unit of the tables."""
+    try:
+        return level_of(key, text)
+    except ValueError as error:
+        option = f"{key} = {text[:40]}"
+        raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=error.args[0])) from None
+
+
+def level_of(key: str, text: str) -> float:
+    """Return a level of a value in SI; ValueError with the mistake if the text is none."""
+    mistake = ErrorMessage("level_plain", text=text[:40])
+    value = _parsed(text, key_unit(key), mistake)
+    if not math.isfinite(value):
+        raise ValueError(mistake)
+    return value
+
+
+def _parsed(text: str, unit: str, mistake: ErrorMessage) -> float:
+    """Return a number in SI; ValueError with the mistake, which is told of a number without a unit."""
+    try:
+        return units.parse_in(text, unit) if unit else float(text.replace(",", "."))
+    except ValueError as error:
+        raise ValueError(error.args[0] if unit else mistake) from None
 
 
 def _own_range(field: NumericField) -> tuple[float, float] | None:

@@ -13,9 +13,7 @@ from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.locale import ErrorMessage, translate
 from crankwork.note.sheets.packing import Picture
 from crankwork.note.sheets.plans import Pictures, of_links
-from crankwork.note.sheets.sheet import Paper, Sheet, numbered, sheets_with
-from crankwork.note.sheets.table import text_block
-from crankwork.note.sheets.title_block import TitleBlock, block_of
+from crankwork.note.sheets.sheet import Paper, Sheet, TitleBlock, block_of, numbered, sheets_with, text_block
 from crankwork.quantities import Language
 from crankwork.report.display import for_readers
 from crankwork.report.figures import diagrams

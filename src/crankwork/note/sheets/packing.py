@@ -14,8 +14,7 @@ import numpy as np
 from crankwork.locale import capital
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import Language
-from crankwork.show.canvas import WIDER
-from crankwork.show.chart_layout import LARGER, MM, ChartLayout, current_layout, use_layout
+from crankwork.show.canvas import LARGER, MM, WIDER, ChartLayout, current_layout, use_layout
 from crankwork.show.scene import (
     TEXT,
     TITLE,

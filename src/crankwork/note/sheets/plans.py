@@ -18,7 +18,7 @@ from crankwork.locale import decimal, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.sheets.packing import in_grid
-from crankwork.note.sheets.table import Column, numbers, table, text_block
+from crankwork.note.sheets.sheet import Column, numbers, table, text_block
 from crankwork.note.wording import named
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
