@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from crankwork.cylinders.journal_loads import unbalance_weight
 from crankwork.dynamics import reduction
-from crankwork.dynamics.tabulated_inertia import difference_derivative
+from crankwork.dynamics.reduction import difference_derivative
 from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dead_centres import dead_centres

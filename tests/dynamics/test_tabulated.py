@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from crankwork.dynamics.tabulated_inertia import difference_derivative
+from crankwork.dynamics.reduction import difference_derivative
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere

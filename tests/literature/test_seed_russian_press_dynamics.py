@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, efficiency
-from crankwork.dynamics.reduction import dynamic_torque
-from crankwork.dynamics.tabulated_inertia import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
+from crankwork.dynamics.reduction import TabulatedBody, difference_derivative, dynamic_torque, reduced_inertia_of_ratios
 
 HALF_SQUARE_OF_SPEED = 107.3113
 ROD_CENTRE = (0.025, 0.032, 0.046, 0.05, 0.043, 0.031, 0.025, 0.037, 0.045, 0.05, 0.046, 0.036)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from crankwork.analysis import traced_inputs
 from crankwork.formula.traced_value import TracedValue, absent, given, total
 from crankwork.machine import Machine
-from crankwork.shaft.flywheel_sizing import (
+from crankwork.shaft.flywheel import (
     RimSpec,
     hoop_stress,
     inertia_of_rim,

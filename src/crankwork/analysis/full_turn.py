@@ -10,8 +10,7 @@ import numpy as np
 
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.position_analysis import place
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import RPR, RRP, RRR, Dyad
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Chain, Dyad
 from crankwork.mechanism.mechanism import Mechanism
 
 _DENSE = CrankGrid.steps(0.1, 360.0)

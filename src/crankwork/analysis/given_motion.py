@@ -15,14 +15,16 @@ from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Results
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
 from crankwork.dynamics.reduction import (
+    TabulatedBody,
     balancing_torque_of_parts,
     central_difference,
+    difference_derivative,
     dynamic_torque,
     forward_difference,
     kinetic_energy,
+    reduced_inertia_of_ratios,
     static_torque_of_balancing,
 )
-from crankwork.dynamics.tabulated_inertia import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
 from crankwork.formula.replay import Program, replay
 from crankwork.formula.traced_value import (
     AngleFunction,

@@ -12,8 +12,7 @@ from crankwork.analysis.operating_state import is_shared, traced_joint_forces
 from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.analysis.transmission_quality import transmissions
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
-from crankwork.dynamics.link_loads import link_angular_acceleration
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, link_angular_acceleration
 from crankwork.dynamics.reaction import JointForces, pin_columns
 from crankwork.dynamics.reduction import (
     balancing_torque_of_parts,

@@ -27,8 +27,7 @@ from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.position_analysis import assembled, place
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Chain
 from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 from crankwork.quantities.key import key_of
 

@@ -12,7 +12,7 @@ from crankwork.dynamics.efficiency import Chain, efficiency
 from crankwork.errors import MethodError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive
-from crankwork.shaft.flywheel_sizing import FlywheelSpec, RimSpec, inertia_of_rim, inertia_of_wheel, mass_of_rim
+from crankwork.shaft.flywheel import FlywheelSpec, RimSpec, inertia_of_rim, inertia_of_wheel, mass_of_rim
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, MotorSelection
 
 _LEAST_EFFICIENCY = 1e-4

@@ -12,8 +12,7 @@ from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import Circle, Friction, GuideFriction, PinFriction
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Bearings, Machine, PinBearing, Shaft
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import Point
+from crankwork.mechanism.dyads import Chain, Point
 from crankwork.mechanism.joints import Pin, names_of_pivots
 from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism

@@ -31,7 +31,7 @@ from crankwork.description.schema import Values
 from crankwork.description.stages_build import stage_valves
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
-from crankwork.dynamics.tabulated_inertia import TabulatedBody
+from crankwork.dynamics.reduction import TabulatedBody
 from crankwork.loads.chamber import Chamber, Vessel
 from crankwork.loads.curves import LoadCurve as LoadTable
 from crankwork.loads.indicator import DiagramError

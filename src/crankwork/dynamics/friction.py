@@ -19,14 +19,12 @@ from crankwork.dynamics.friction_equations import (
     Status,
     Truth,
 )
-from crankwork.dynamics.link_loads import Wrenches, arm, cross, link_wrenches
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, Wrenches, arm, cross, link_wrenches
 from crankwork.dynamics.reaction import JointForces, collect_reactions
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion import Motion, broadcast
 from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
 from crankwork.mechanism.linkage import GROUND

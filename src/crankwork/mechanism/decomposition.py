@@ -8,9 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from crankwork.errors import Problem
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.driver import Cylinder
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Branch, Dyad, Guide, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Branch, Chain, ChainLink, Dyad, Guide, Point, Slide
 from crankwork.mechanism.linkage import Linkage, Member
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
 from crankwork.mechanism.structure import known_points, structure

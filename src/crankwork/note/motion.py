@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.sampled_motion import transfer_ratios
 from crankwork.analysis.skeleton import skeleton
-from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import Chain
 from crankwork.note.closing import errors
 from crankwork.note.document import Block, Citation, Reference, Run
 from crankwork.note.material import Material
