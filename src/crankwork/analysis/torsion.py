@@ -30,26 +30,7 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Engine, Machine
-from crankwork.shaft.torsion_formulas import (
-    THROW_FORMULAS,
-    damper_inertia_ratio,
-    damping_of_ring,
-    equivalent_length,
-    inertia_at_first_speed,
-    inertia_of_disc,
-    inertia_of_shaft,
-    length_at_first_speed,
-    polar_moment,
-    speed_of_order,
-    stiffness_of_length,
-    stiffness_of_ring,
-    stress_of_torque,
-    tuned_damping,
-    tuned_frequency_ratio,
-    tuned_magnification,
-    untuned_damping,
-    untuned_magnification,
-)
+from crankwork.shaft import torsion_formulas as formulas
 from crankwork.shaft.torsion_model import GROUNDED, ElasticShaft, ShaftPart, TorsionModel, structure_of, walked
 from crankwork.shaft.torsion_replay import DampedDisc, ForcedVibration, NaturalModes, Wave, damped_modes
 from crankwork.shaft.torsional_system import HolzerTable, Modes, TorsionalStructure
@@ -174,13 +155,15 @@ def torsion_trace(
         stiffness[name], length = _stiffness(model, shaft, f"torsional_stiffness.{name}", reference, (pi, radius))
         if length is not None:
             first = next(end for end in shaft.between if end in inertia)
-            reduced = length_at_first_speed(length.named(f"equivalent_length.{name}.own"), geared[first]) if (
+            reduced = formulas.length_at_first_speed(length.named(f"equivalent_length.{name}.own"), geared[first]) if (
                 first in geared) else length  # fmt: skip
             lengths[name] = reduced.named(f"equivalent_length.{name}")
         if shaft.density is not None:
             density = given("shaft_density", shaft.density, f"{shaft.path}.density")
             part, moment = shaft.parts[0], _moment(shaft.path, shaft.parts[0], pi)
-            heavy[name] = inertia_of_shaft(density, moment, _length(shaft.path, part)).named(f"shaft_inertia.{name}")
+            heavy[name] = formulas.inertia_of_shaft(density, moment, _length(shaft.path, part)).named(
+                f"shaft_inertia.{name}"
+            )
     for name, damper in model.dampers.items():
         if damper.stiffness:
             stiffness[name] = given(
@@ -189,7 +172,7 @@ def torsion_trace(
     values |= {item.key: item for item in (*inertia.values(), *stiffness.values(), *lengths.values(), *heavy.values())}
     for name, u in geared.items():
         values[u.key] = u
-        values[f"equivalent_inertia.{name}"] = inertia_at_first_speed(inertia[name], u).named(
+        values[f"equivalent_inertia.{name}"] = formulas.inertia_at_first_speed(inertia[name], u).named(
             f"equivalent_inertia.{name}"
         )
     if len(lengths) == len(model.shafts) > 1 and structure_of(model).is_tree:
@@ -211,7 +194,7 @@ def _inertia(model: TorsionModel, name: str, own: Mapping[str, TracedValue]) -> 
         return given("disc_inertia", disc.inertia, f"{path}.inertia")
     mass = given("disc_mass", disc.mass or 0.0, f"{path}.mass")
     radius = given("disc_gyration_radius", disc.radius_of_gyration or 0.0, f"{path}.radius_of_gyration")
-    inertia: TracedValue = inertia_of_disc(mass, radius)
+    inertia: TracedValue = formulas.inertia_of_disc(mass, radius)
     return inertia
 
 
@@ -270,12 +253,12 @@ def section(path: str, diameter: float, bore: float) -> tuple[TracedValue, Trace
 
 
 def _solid(pi: float, diameter: TracedValue) -> TracedValue:
-    moment: TracedValue = polar_moment(pi, diameter, absent("shaft_bore"))
+    moment: TracedValue = formulas.polar_moment(pi, diameter, absent("shaft_bore"))
     return moment
 
 
 def _moment(path: str, part: ShaftPart, pi: float) -> TracedValue:
-    moment: TracedValue = polar_moment(pi, *section(path, part.diameter, part.bore))
+    moment: TracedValue = formulas.polar_moment(pi, *section(path, part.diameter, part.bore))
     return moment
 
 
@@ -294,18 +277,20 @@ def _stiffness(
     modulus = given("shear_modulus", shaft.modulus or model.modulus, f"{path}.modulus" if own else f"{_PATH}.modulus")
     if shaft.throw is not None:
         sizes = {item: _throw_size(shaft, item, radius) for item in _SIZES}
-        length = THROW_FORMULAS[shaft.throw.formula](*sizes.values()).named(f"equivalent_length.{name}")
+        length = formulas.THROW_FORMULAS[shaft.throw.formula](*sizes.values()).named(f"equivalent_length.{name}")
         moment = _solid(pi, sizes["journal_diameter"]).named(f"polar_moment.{name}")
-        return stiffness_of_length(modulus, moment, length).named(key), length
+        return formulas.stiffness_of_length(modulus, moment, length).named(key), length
     if reference is None:
         raise TypeError("a shaft without a stiffness has sections")
     lengths = []
     for index, part in enumerate(shaft.parts):
         place, number = _part_path(shaft, index), f"{name}.{index + 1}"
         moment = _moment(place, part, pi).named(f"polar_moment.{number}")
-        lengths.append(equivalent_length(_length(place, part), reference, moment).named(f"equivalent_length.{number}"))
+        lengths.append(
+            formulas.equivalent_length(_length(place, part), reference, moment).named(f"equivalent_length.{number}")
+        )
     length = total(f"equivalent_length.{name}", lengths)
-    return stiffness_of_length(modulus, reference, length).named(key), length
+    return formulas.stiffness_of_length(modulus, reference, length).named(key), length
 
 
 _SIZES = ("journal_length", "journal_diameter", "journal_bore", "pin_length", "pin_diameter", "pin_bore", "radius",
@@ -441,7 +426,7 @@ def forced_values(system: Vibrating, pi: float) -> dict[str, TracedValue]:
         sizes = _section(shaft)
         if sizes is not None:
             key = f"vibration_stress.{name}"
-            values[key] = stress_of_torque(values[f"vibration_torque.{name}"], pi, *sizes).named(key)
+            values[key] = formulas.stress_of_torque(values[f"vibration_torque.{name}"], pi, *sizes).named(key)
     return values
 
 
@@ -485,15 +470,15 @@ def damper_values(results: Results, system: Vibrating) -> dict[str, TracedValue]
             for part, (key, value) in enumerate((("angular_frequency", w), ("effective_inertia", inertia)))
         )
         ring = system.trace.inertia[name]
-        mu = damper_inertia_ratio(ring, J).named(f"damper_inertia_ratio.{name}")
+        mu = formulas.damper_inertia_ratio(ring, J).named(f"damper_inertia_ratio.{name}")
         best = {"effective_inertia": J, "damper_inertia_ratio": mu}
         if damper.stiffness:
-            best["optimum_tuning"] = tuned_frequency_ratio(mu)
-            best["optimum_stiffness"] = stiffness_of_ring(ring, best["optimum_tuning"], w_j)
-            best["optimum_damping_ratio"], peak = tuned_damping(mu), tuned_magnification(mu)
+            best["optimum_tuning"] = formulas.tuned_frequency_ratio(mu)
+            best["optimum_stiffness"] = formulas.stiffness_of_ring(ring, best["optimum_tuning"], w_j)
+            best["optimum_damping_ratio"], peak = formulas.tuned_damping(mu), formulas.tuned_magnification(mu)
         else:
-            best["optimum_damping_ratio"], peak = untuned_damping(mu), untuned_magnification(mu)
-        best["optimum_damping"] = damping_of_ring(best["optimum_damping_ratio"], ring, w_j)
+            best["optimum_damping_ratio"], peak = formulas.untuned_damping(mu), formulas.untuned_magnification(mu)
+        best["optimum_damping"] = formulas.damping_of_ring(best["optimum_damping_ratio"], ring, w_j)
         best["least_magnification"] = peak
         values |= {f"{key}.{name}": value.named(f"{key}.{name}") for key, value in best.items()}
     return values
@@ -539,12 +524,12 @@ def _critical_speeds(system: Vibrating) -> dict[str, Array]:
         (mode, w, order)
         for mode, w in enumerate(system.modes.frequency.tolist())
         for order in _orders(system).tolist()
-        if low <= speed_of_order(w, order) <= high
+        if low <= formulas.speed_of_order(w, order) <= high
     ]
     columns = {
         "mode_number": np.array([mode + 1.0 for mode, _, _ in rows]),
         "harmonic_order": np.array([order for _, _, order in rows]),
-        "critical_speed": np.array([speed_of_order(w, order) for _, w, order in rows]),
+        "critical_speed": np.array([formulas.speed_of_order(w, order) for _, w, order in rows]),
     }
     if not rows or not any(wave.frequency is None for wave in system.excitation.waves):
         return columns
@@ -583,7 +568,7 @@ def _response(system: Vibrating, critical: Array, pi: float) -> dict[str, Array]
         sizes = _section(shaft)
         if sizes is not None:
             diameter, bore = (size.value for size in sizes)
-            stress = stress_of_torque(columns[f"vibration_torque.{name}"], pi, diameter, bore)
+            stress = formulas.stress_of_torque(columns[f"vibration_torque.{name}"], pi, diameter, bore)
             columns[f"vibration_stress.{name}"] = np.asarray(stress)
     return columns
 
