@@ -95,10 +95,8 @@ def _columns(results: Results | None, degrees: Array) -> dict[str, Array]:
     """Return gauge pressure and forces of every cylinder, as far as they are known, shape (cylinders, n). [SI]"""
     if results is None:
         return {}
-    keys, angles = (
-        [key for key in ("gas_pressure", *FORCES) if key in results.trace],
-        np.mod(degrees, results.machine.cycle),
-    )
+    keys = [key for key in ("gas_pressure", *FORCES) if key in results.trace]
+    angles = np.mod(degrees, results.machine.cycle)
     if results.machine.engine is None:
         return {key: values[None] for key, values in results.columns_at(angles, keys).items()}
     # machines of one cylinder do not load it

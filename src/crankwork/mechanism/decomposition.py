@@ -188,11 +188,9 @@ class _Order:
                     ends[end] = drawn_points[end]
                 elif len(drawn) == 2 and member is not cylinder:
                     (x, y), angle = drawn_points[drawn[0]], self._drawn_angle(name, drawn_points)
-                    (u, v), cos, sin = (
-                        _difference(member.points[drawn[0]], member.points[end]),
-                        math.cos(angle),
-                        math.sin(angle),
-                    )
+                    u, v = _difference(member.points[drawn[0]], member.points[end])
+                    cos = math.cos(angle)
+                    sin = math.sin(angle)
                     ends[end] = (x + u * cos - v * sin, y + u * sin + v * cos)
         return ends
 
