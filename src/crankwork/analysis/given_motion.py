@@ -123,7 +123,7 @@ def _change(
         return row(key, table.reduced_inertia_1, f"{table.of_crank}.reduced_inertia_1")
     column, operands = replay(inertia, grid), (inertia,)
     if table.differences == "spectral":
-        return row(key, reduction.difference_derivative(grid.angle, column, "spectral"), operands=operands)
+        return row(key, reduction.spectral_derivative(grid.angle, column), operands=operands)
     ahead = row("reduced_inertia.next", np.roll(column, -1), operands=operands)
     step = np.append(np.diff(grid.angle), grid.angle[0] + 2 * np.pi - grid.angle[-1])
     if table.differences == "forward":

@@ -15,7 +15,7 @@ from crankwork.analysis.harmonics import curve_of
 from crankwork.analysis.prepared import Notice, PreparedCylinder, PreparedMachine
 from crankwork.analysis.reduction import MOVING
 from crankwork.analysis.results import Deferred, Listing, Results
-from crankwork.cylinders.engines import inline
+from crankwork.cylinders.arrangement import inline
 from crankwork.cylinders.layout import CylinderPlace
 from crankwork.cylinders.torque import curve_harmonics
 from crankwork.formula.cycle_interpolant import CycleInterpolant
@@ -32,8 +32,16 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Engine, Machine
 from crankwork.shaft import torsion_formulas as formulas
 from crankwork.shaft.torsion_model import GROUNDED, ElasticShaft, ShaftPart, TorsionModel, structure_of, walked
-from crankwork.shaft.torsion_replay import DampedDisc, ForcedVibration, NaturalModes, Wave, damped_modes
-from crankwork.shaft.torsional_system import HolzerTable, Modes, TorsionalStructure
+from crankwork.shaft.torsional_system import (
+    DampedDisc,
+    ForcedVibration,
+    HolzerTable,
+    Modes,
+    NaturalModes,
+    TorsionalStructure,
+    Wave,
+    damped_modes,
+)
 
 _TURN, _CYCLE = 360.0, 720.0
 

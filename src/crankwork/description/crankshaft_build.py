@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from crankwork.cylinders.arrangement import StandardOrder, build_layout, standard_orders
+from crankwork.cylinders.arrangement import StandardOrder, boxer, build_layout, inline, radial, standard_orders, vee
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
-from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout

@@ -27,7 +27,7 @@ from crankwork.shaft.torsion_model import (
     structure_of,
     walked,
 )
-from crankwork.shaft.torsion_replay import NaturalModes
+from crankwork.shaft.torsional_system import NaturalModes
 
 _TURN = 6.283185307179586
 _MOST = 10_000

@@ -40,23 +40,15 @@ def reduced_inertia_of_ratios(m_i: Value, v_w: Value, J_S: Value, w_w: Value) ->
     return m_i * v_w**2 + J_S * w_w**2
 
 
-def difference_derivative(crank_angle: ArrayLike, values: ArrayLike, scheme: Differences = "central") -> Array:
-    """Return the derivative by the crank angle of a column that repeats every revolution. [kg m2]
+def spectral_derivative(crank_angle: ArrayLike, values: ArrayLike) -> Array:
+    """Return the derivative by the crank angle of the trigonometric polynomial through a column of a revolution.
 
-    Differences are to the next angle, from the last to the next, or of the trigonometric polynomial through all values.
-
-    Forward and central differences are those of printed tables. For a computed motion the exact derivative is
-    available, see `reduction.reduced_inertia`.
+    [kg m2] ValueError unless the crank angles are equidistant and there is one value for each. [rad]
     """
     angle, column = np.asarray(crank_angle, dtype=float), np.asarray(values, dtype=float)
-    next_angle = np.append(angle[1:], angle[0] + 2 * np.pi)
-    step = next_angle - angle
+    step = np.diff(angle, append=angle[:1] + 2 * np.pi)
     if angle.shape != column.shape or np.any(step <= 0):
         raise ValueError("crank angles must ascend within one revolution, with one value each")
-    if scheme == "forward":
-        return np.asarray((np.roll(column, -1) - column) / step)
-    if scheme == "central":
-        return np.asarray((np.roll(column, -1) - np.roll(column, 1)) / (step + np.roll(step, 1)))
     if np.ptp(step) > 1e-9:
         raise ValueError("the spectral derivative needs equidistant crank angles over the whole revolution")
     orders = np.fft.rfftfreq(column.size, 1 / column.size)
