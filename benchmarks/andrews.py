@@ -23,7 +23,7 @@ import numpy as np
 
 import crankwork
 from crankwork.analysis.path_coordinate import path_coordinate
-from crankwork.analysis.transient_model import TransientModel
+from crankwork.analysis.transient import TransientModel
 from crankwork.formula.traced_value import TracedValue
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import Array, CrankGrid

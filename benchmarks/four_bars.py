@@ -16,7 +16,7 @@ import numpy as np
 
 import crankwork
 from crankwork.analysis.path_coordinate import path_coordinate
-from crankwork.analysis.transient_model import TransientModel
+from crankwork.analysis.transient import TransientModel
 from crankwork.shaft.transient import Integrator
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "literature"))

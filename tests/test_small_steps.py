@@ -19,8 +19,8 @@ from PIL import Image
 
 import crankwork
 from crankwork import cli, files, progress, units
-from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.analysis.input_loads import FrictionInput
+from crankwork.analysis.motion_range import full_turn_bounds
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.cli.__init__ import studio

@@ -29,13 +29,13 @@ if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
     from crankwork.dynamics.efficiency import Chain
     from crankwork.dynamics.friction import Friction
+    from crankwork.dynamics.reduction import Differences, TabulatedBody
     from crankwork.dynamics.redundant import RedundantLink
-    from crankwork.dynamics.tabulated_inertia import Differences, TabulatedBody
     from crankwork.kinematics.crank_range import CrankRange
     from crankwork.kinematics.slider_crank import SliderCrank
     from crankwork.loads.load import Load
     from crankwork.mechanism.linkage import Linkage
-    from crankwork.shaft.flywheel_sizing import FlywheelSpec
+    from crankwork.shaft.flywheel import FlywheelSpec
     from crankwork.shaft.motor import GearedMotor, MotorSelection
     from crankwork.shaft.torque_diagram import ShaftTorques
     from crankwork.shaft.torsion_model import TorsionModel

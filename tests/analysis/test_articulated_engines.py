@@ -14,8 +14,8 @@ from crankwork.analysis.cylinders import multi_cylinder_engine
 from crankwork.analysis.prepared import prepare
 from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.dynamics.operating_state import OperatingState
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.mechanism import Body, body_at

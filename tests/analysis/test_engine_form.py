@@ -12,8 +12,8 @@ import pytest
 
 import crankwork
 from crankwork import CrankGrid, analyse, read_machine, template
+from crankwork.analysis.cell_gas import linkage_paths, relocate
 from crankwork.analysis.cylinder_form import engine_form, engine_form_or_reason
-from crankwork.analysis.form_paths import linkage_paths, relocate
 from crankwork.analysis.results import Results
 from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError, InputError, Problem

@@ -16,8 +16,8 @@ from crankwork.analysis.cylinder_balance import engine_balance
 from crankwork.analysis.cylinders import multi_cylinder_engine
 from crankwork.analysis.one_cylinder import own_key
 from crankwork.analysis.shaft_torque import engine_torque
+from crankwork.cylinders.arrangement import boxer, inline, radial, vee
 from crankwork.cylinders.articulated import articulated_motion
-from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Bearings, Drive, Engine, Machine
 from crankwork.report.summary import summary_data

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from crankwork.cylinders.arrangement import radial
 from crankwork.cylinders.articulated import (
     ArticulatedRod,
     articulated_forces,
@@ -15,7 +16,6 @@ from crankwork.cylinders.articulated import (
     articulated_stroke,
     check_articulated_rod,
 )
-from crankwork.cylinders.engines import radial
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.piston import piston_motion

@@ -4,8 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crankwork.cylinders.arrangement import STANDARD_ORDERS, build_layout
-from crankwork.cylinders.engines import boxer, inline, radial, vee
+from crankwork.cylinders.arrangement import STANDARD_ORDERS, boxer, build_layout, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, order_text, wrap_angle
 from crankwork.cylinders.layout import Banks
 from each import for_each

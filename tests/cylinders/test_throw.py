@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from crankwork.cylinders.arrangement import radial, vee
 from crankwork.cylinders.articulated import ArticulatedRod, articulated_motion, throw_mechanism
-from crankwork.cylinders.engines import radial, vee
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.piston import piston_motion

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from crankwork.cylinders.arrangement import STANDARD_ORDERS, standard_orders
-from crankwork.cylinders.engines import vee
+from crankwork.cylinders.arrangement import STANDARD_ORDERS, standard_orders, vee
 from crankwork.cylinders.torque import (
     curve_harmonics,
     even_firing_interval,

@@ -8,8 +8,7 @@ import pytest
 
 import driven
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.link_loads import link_wrenches
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, link_wrenches
 from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -17,9 +16,8 @@ from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
 from crankwork.loads.load import ForceOnPoint, TorqueOnLink, Weight, applied_loads
-from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.driver import Cylinder, DrivingSlider
-from crankwork.mechanism.dyads import RRP, RRR, Guide
+from crankwork.mechanism.dyads import RRP, RRR, Chain, ChainLink, Guide
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
 from driven import there_and_back
 from each import for_each

@@ -7,7 +7,7 @@ from crankwork.dynamics import friction_equations as module
 from crankwork.dynamics.friction import GuideFriction, PinFriction, friction_forces
 from crankwork.dynamics.friction_equations import CONVERGED, NOT_CONVERGED, SELF_LOCKING
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.loop_closure import solve_positions
 from crankwork.kinematics.motion import linkage_motion

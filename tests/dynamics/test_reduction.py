@@ -3,11 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.dynamics.reduction import crank_torque, kinetic_energy, reduced_inertia, reduced_torque
-from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.motion import body_motions, linkage_motion
 from crankwork.loads.applied_loads import NO_LOADS
 from crankwork.loads.load import ForceOnPoint, TorqueOnLink, Weight, applied_loads
 from crankwork.mechanism.catalog import four_bar, scotch_yoke, slotted_press, watt_six_bar

@@ -11,9 +11,8 @@ from crankwork.kinematics.configuration_curve import driver_coordinate, link_ang
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, Segment
-from crankwork.mechanism.dyads import RRR, Guide
+from crankwork.mechanism.dyads import RRR, Chain, Guide
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, slider_crank
 from each import for_each
 from linkages import TRIAD, At, distance, mechanism_from

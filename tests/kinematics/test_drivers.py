@@ -8,9 +8,8 @@ import pytest
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.motion_laws import law_at
-from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
-from crankwork.mechanism.dyads import RRP, RRR, Guide
+from crankwork.mechanism.dyads import RRP, RRR, Chain, ChainLink, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
 from driven import BOOM, ELBOW, there_and_back
 from each import for_each

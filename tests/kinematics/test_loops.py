@@ -14,7 +14,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.crank_range import find_crank_range
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.position_analysis import ChainRoot, place
-from crankwork.mechanism.chain import Chain, ChainLink
+from crankwork.mechanism.dyads import Chain, ChainLink
 from linkages import mechanism_from
 from motions import changed
 

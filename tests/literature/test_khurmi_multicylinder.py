@@ -13,7 +13,7 @@ import math
 import numpy as np
 import pytest
 
-from crankwork.cylinders.engines import inline
+from crankwork.cylinders.arrangement import inline
 from crankwork.cylinders.torque import curve_harmonics, total_harmonics
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import acceleration_of_crank, excess_work, fluctuation_of_inertia

@@ -7,9 +7,8 @@ import pytest
 
 from crankwork.dynamics.reduction import reduced_torque
 from crankwork.errors import GeometryError, InputError
-from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.motion import body_motions, linkage_motion
 from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import (
     Damper,

@@ -12,7 +12,7 @@ import pytest
 
 import crankwork
 import notes
-from crankwork.cylinders.engines import boxer, inline, radial, vee
+from crankwork.cylinders.arrangement import boxer, inline, radial, vee
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import TracedValue
 from crankwork.machine import Bearings, Drive, Engine

@@ -13,7 +13,7 @@ from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.friction import GuideFriction, PinFriction, friction_forces
 from crankwork.dynamics.friction_equations import CONVERGED, NOT_CONVERGED
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.reduction import crank_torque
 from crankwork.dynamics.routes import virtual_work_torque, zhukovsky_torque
@@ -41,8 +41,7 @@ from crankwork.mechanism.catalog import (
     watt_six_bar,
     whitworth,
 )
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Chain, Dyad, Guide
 from crankwork.mechanism.joints import SlidingJoint, group_links, joints
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at, slider_crank
 from each import for_each

@@ -13,7 +13,7 @@ import pytest
 
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.constructions import brix_points, tangent_ends, tolle_points
-from crankwork.cylinders.engines import inline, radial, vee
+from crankwork.cylinders.arrangement import inline, radial, vee
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.machine import Bearings, Drive, Engine
 from crankwork.report.figures import diagrams

@@ -8,8 +8,7 @@ import pytest
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_inertia, true_speed
-from crankwork.shaft.flywheel import inertia_on_other_shaft
-from crankwork.shaft.flywheel_sizing import inertia_of_wheel, rim_speed_of_stress
+from crankwork.shaft.flywheel import inertia_of_wheel, inertia_on_other_shaft, rim_speed_of_stress
 from each import for_each
 from flywheels import WAYS, flywheel
 

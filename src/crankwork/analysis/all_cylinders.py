@@ -32,7 +32,7 @@ from crankwork.analysis.shaft_torque import (
     torque_checks,
     torque_trace,
 )
-from crankwork.cylinders.engines import inline
+from crankwork.cylinders.arrangement import inline
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program, Samples
 from crankwork.formula.traced_value import TracedValue

@@ -111,7 +111,7 @@ def is_engine(machine: Machine) -> bool:
 
 def _located(results: Results, machine: Machine) -> Results:
     """Return results of the engine that a linkage is, their inputs where the linkage states them."""
-    from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
+    from crankwork.analysis.cell_gas import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
 
     relocate(results.trace.values(), linkage_paths(machine))
     return results

@@ -16,8 +16,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.crank_range import find_crank_range, has_steady_crank
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Chain
 from crankwork.mechanism.mechanism import Mechanism
 
 _SAME, _FULL = 1e-6, 1e-9

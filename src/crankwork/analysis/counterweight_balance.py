@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis.harmonics import amplitude_of_order, direction, size_of_sum
-from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, arm, inertia_loads, moment_of
 from crankwork.dynamics.reaction import shaking_force
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, Sum, TracedValue, absent, given, total

@@ -308,10 +308,8 @@ def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: Trace
     K_F = TracedValue(ProcedureValue(factor.force.largest, "vector_sum"), f"force_factor.{name}")
     values = [K_F, free_force(K_F, force).named(f"free_force.{row}")]
     if pitch:
-        K_M, a_z = (
-            TracedValue(ProcedureValue(factor.moment.largest, "vector_sum"), f"moment_factor.{name}"),
-            given("balance_pitch", pitch, "engine.spacing"),
-        )
+        K_M = TracedValue(ProcedureValue(factor.moment.largest, "vector_sum"), f"moment_factor.{name}")
+        a_z = given("balance_pitch", pitch, "engine.spacing")
         values += [K_M, free_moment(K_M, a_z, force).named(f"free_moment.{row}")]
     return {item.key: item for item in values}
 

@@ -119,10 +119,8 @@ class _Kind(NamedTuple):
 
 def _of_kind(solved: PreparedCylinder, engine: Engine, kind: _Kind) -> PreparedCylinder:
     """Return a cylinder of an engine, made ready from its first."""
-    machine, solved = (
-        _own_machine(solved.machine, kind.articulated_rod, is_first=kind.is_first),
-        replace(solved, lean=kind.lean),
-    )
+    machine = _own_machine(solved.machine, kind.articulated_rod, is_first=kind.is_first)
+    solved = replace(solved, lean=kind.lean)
     if kind.gas:
         machine = replace(machine, gas=engine.gases[kind.gas])
     if kind.articulated_rod is not None:

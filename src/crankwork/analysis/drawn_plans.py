@@ -17,9 +17,8 @@ from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.skeleton import guide_pose, skeleton
 from crankwork.analysis.vector_polygons import Kind, accelerations, driver_rates, velocities
 from crankwork.kinematics.crank_grid import Array
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import DrivingSlider
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Chain, Dyad
 from crankwork.mechanism.joints import group_links
 from crankwork.mechanism.mechanism import Crank, Mechanism
 

@@ -114,11 +114,9 @@ def delivery_trace(
     valved = {number: gas.valves for number, gas in gases.items() if gas is not None and gas.valves is not None}
     if not valved or "indicated_power" not in works or len(engine.cylinders) < 2:
         return {}
-    cycle, speed, flows = (
-        traced_inputs.cycle_angle(engine.machine),
-        engine.master.trace["speed"],
-        dict[int, TracedValue](),
-    )
+    cycle = traced_inputs.cycle_angle(engine.machine)
+    speed = engine.master.trace["speed"]
+    flows = dict[int, TracedValue]()
     for number, valves in valved.items():
         trace = engine.cylinders[number - 1].trace
         stated = StatedValves(valves, "gas.valves")

@@ -7,22 +7,7 @@ from collections.abc import Iterator, Mapping
 from crankwork.analysis import traced_inputs
 from crankwork.formula.traced_value import TracedValue, absent, given, total
 from crankwork.machine import Machine
-from crankwork.shaft.flywheel_sizing import (
-    RimSpec,
-    hoop_stress,
-    inertia_of_rim,
-    inertia_of_wheel,
-    mass_for_inertia_of_rim,
-    mass_of_rim,
-    mass_of_wheel,
-    recovery_torque,
-    rim_diameter,
-    rim_diameter_of_section,
-    rim_section,
-    rim_speed,
-    rim_speed_of_stress,
-    rim_thickness,
-)
+from crankwork.shaft import flywheel as formulas
 
 
 def target_fluctuation(machine: Machine, w: TracedValue) -> TracedValue | None:
@@ -72,17 +57,17 @@ def _given_wheel(machine: Machine) -> Iterator[TracedValue]:
         yield given("flywheel_inertia", own.value, "flywheel.inertia")
     elif wheel is not None and wheel.mass is not None and wheel.gyration_radius is not None:
         mass = given("flywheel_mass", wheel.mass, "flywheel.mass")
-        yield inertia_of_wheel(mass, _gyration(wheel.gyration_radius))
+        yield formulas.inertia_of_wheel(mass, _gyration(wheel.gyration_radius))
     elif wheel is not None and wheel.rim is not None and wheel.rim.diameter is not None:
         rim, diameter = wheel.rim, _of_rim("diameter", wheel.rim.diameter)
         if wheel.mass is not None:
             mass = given("rim_mass", wheel.mass, "flywheel.mass")
         elif rim.density is not None and rim.width is not None and rim.thickness is not None:
             sizes = (_of_rim("width", rim.width), _of_rim("thickness", rim.thickness))
-            mass = mass_of_rim(_of_rim("density", rim.density), machine.method.pi, diameter, *sizes)
+            mass = formulas.mass_of_rim(_of_rim("density", rim.density), machine.method.pi, diameter, *sizes)
         else:
             return
-        inertia: TracedValue = inertia_of_rim(mass, diameter)
+        inertia: TracedValue = formulas.inertia_of_rim(mass, diameter)
         yield inertia if rim.share == 1 else inertia / _of_rim("share", rim.share)
 
 
@@ -111,39 +96,39 @@ def flywheel_dimensions(machine: Machine, inertia: TracedValue, w: TracedValue) 
         return {}
     values = dict[str, TracedValue]()
     if wheel.gyration_radius is not None:
-        values["flywheel_mass"] = mass_of_wheel(inertia, _gyration(wheel.gyration_radius))
+        values["flywheel_mass"] = formulas.mass_of_wheel(inertia, _gyration(wheel.gyration_radius))
     if wheel.rim is not None:
         values |= _rim(machine, wheel.rim, inertia, w)
     return {key: value.named(key) for key, value in values.items()}
 
 
-def _rim(machine: Machine, rim: RimSpec, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
+def _rim(machine: Machine, rim: formulas.RimSpec, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
     """Return speed, diameter, mass and section of a rim, as far as they follow."""
     values = dict[str, TracedValue]()
     density = None if rim.density is None else _of_rim("density", rim.density)
     part = inertia if rim.share == 1 else (_of_rim("share", rim.share) * inertia).named("rim_inertia")
     if rim.diameter is not None:
         diameter = _of_rim("diameter", rim.diameter)
-        speed = values["rim_speed"] = rim_speed(w, diameter)
+        speed = values["rim_speed"] = formulas.rim_speed(w, diameter)
     elif rim.speed is None and rim.stress is None:
         section = _of_rim("width", rim.width or 0.0), _of_rim("thickness", rim.thickness or 0.0)
-        diameter = values["rim_diameter"] = rim_diameter_of_section(part, density, machine.method.pi, *section)
-        speed = values["rim_speed"] = rim_speed(w, diameter)
+        diameter = values["rim_diameter"] = formulas.rim_diameter_of_section(part, density, machine.method.pi, *section)
+        speed = values["rim_speed"] = formulas.rim_speed(w, diameter)
     else:
         if rim.speed is not None:
             speed = _of_rim("speed", rim.speed)
         else:
-            speed = values["rim_speed"] = rim_speed_of_stress(_of_rim("stress", rim.stress or 0.0), density)
-        diameter = values["rim_diameter"] = rim_diameter(speed, w)
+            speed = values["rim_speed"] = formulas.rim_speed_of_stress(_of_rim("stress", rim.stress or 0.0), density)
+        diameter = values["rim_diameter"] = formulas.rim_diameter(speed, w)
     if density is not None and rim.stress is None:
-        values["rim_stress"] = hoop_stress(density, speed)
-    mass = values["rim_mass"] = mass_for_inertia_of_rim(part, diameter)
+        values["rim_stress"] = formulas.hoop_stress(density, speed)
+    mass = values["rim_mass"] = formulas.mass_for_inertia_of_rim(part, diameter)
     if density is None or (rim.width is not None and rim.thickness is not None):
         return values
-    section = values["rim_section"] = rim_section(mass, machine.method.pi, diameter, density)
+    section = values["rim_section"] = formulas.rim_section(mass, machine.method.pi, diameter, density)
     if rim.ratio is not None:
         ratio = _of_rim("ratio", rim.ratio)
-        thickness = values["rim_thickness"] = rim_thickness(section, ratio)
+        thickness = values["rim_thickness"] = formulas.rim_thickness(section, ratio)
         values["rim_width"] = thickness * ratio
     elif rim.width is not None:
         values["rim_thickness"] = section / _of_rim("width", rim.width)
@@ -161,4 +146,4 @@ def recovery_torque_values(
         return {}
     time = given("recovery_time", wheel.recovery_time, "flywheel.recovery")
     delta = summary["speed_fluctuation"].named("speed_fluctuation")
-    return {"recovery_torque": recovery_torque(inertia, delta, w, time)}
+    return {"recovery_torque": formulas.recovery_torque(inertia, delta, w, time)}

@@ -5,25 +5,20 @@ What the equations of moments about inner joints give, a force across a link, is
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator
 from itertools import chain
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.acting_forces import (
-    ActingForce,
-    ActingTorque,
-    acting_forces,
-    acting_torques,
-    first_value,
-    place_of,
-)
 from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.results import Results
 from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.link_loads import OperatingState, inertia_loads
 from crankwork.dynamics.reaction import PinForce, Reaction, joint_place, reaction_wrench
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.applied_loads import ForceKind
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
@@ -31,6 +26,62 @@ from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.joints import Joint, Pin, group_links, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
+
+
+class ActingForce(NamedTuple):
+    """A force on a link, the sum of those of its kind at one point. [N]"""
+
+    kind: ForceKind
+    link: str
+    point: PointMotion
+    force: Array
+    before: int = 0  # How many of its kind on its link stand before it
+
+
+class ActingTorque(NamedTuple):
+    """A torque on a link, positive anticlockwise [N m], and the link's rate of turning over the crank's."""
+
+    kind: ForceKind
+    link: str
+    torque: float
+    rate: float
+
+
+def first_value(value: object) -> float:
+    """Return the first element of a column, at the one angle that is asked for."""
+    return float(np.ravel(np.asarray(value, dtype=float))[0])
+
+
+def place_of(point: PointMotion) -> Array:
+    """Return where a point is. [m]"""
+    return np.array([first_value(side.position) for side in point])
+
+
+def acting_forces(running: OperatingState) -> list[ActingForce]:
+    """Return the loads, weights and inertia forces on the links, those that are zero left out."""
+    sums: dict[tuple[object, ...], ActingForce] = {}
+    for load in running.loads.also(inertia_loads(running)).forces:
+        force, place = np.array([first_value(load.x), first_value(load.y)]), np.round(place_of(load.point), 9)
+        key = (load.kind, load.link, *place.tolist())
+        same = sums.get(key)
+        sums[key] = ActingForce(load.kind, load.link, load.point, force if same is None else same.force + force)
+    seen, result = Counter[tuple[str, str]](), list[ActingForce]()
+    for acting in sums.values():
+        if np.any(acting.force):
+            result.append(acting._replace(before=seen[acting[:2]]))
+            seen[acting[:2]] += 1
+    return result
+
+
+def acting_torques(running: OperatingState) -> list[ActingTorque]:
+    """Return the torques of loads and of inertia on the links, those of one kind on a link as one."""
+    sums: dict[tuple[str, str], ActingTorque] = {}
+    for load in running.loads.also(inertia_loads(running)).torques:
+        same, torque = sums.get((load.kind, load.link)), first_value(load.torque)
+        total = torque + (same.torque if same else 0.0)
+        sums[load.kind, load.link] = ActingTorque(load.kind, load.link, total, first_value(load.angle_1))
+    return [*sums.values()]
+
 
 # forces smaller than this share of the largest of a plan, and moments than this of an equation, are left out
 _NEGLIGIBLE = 1e-9

@@ -13,16 +13,8 @@ from crankwork.analysis import traced_inputs
 from crankwork.analysis.mechanism_trace import speed_of
 from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Results
+from crankwork.dynamics import reduction
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
-from crankwork.dynamics.reduction import (
-    balancing_torque_of_parts,
-    central_difference,
-    dynamic_torque,
-    forward_difference,
-    kinetic_energy,
-    static_torque_of_balancing,
-)
-from crankwork.dynamics.tabulated_inertia import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
 from crankwork.formula.replay import Program, replay
 from crankwork.formula.traced_value import (
     AngleFunction,
@@ -92,7 +84,7 @@ def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str,
             return TracedValue(Tabulated(StatedRows(degrees, values, path), "given"), key)
         return TracedValue(Tabulated(Rows(degrees, values), "positions", operands=operands), key)
 
-    def part(body: TabulatedBody) -> TracedValue:
+    def part(body: reduction.TabulatedBody) -> TracedValue:
         path = f"{table.of_bodies}.{body.name}"
         velocity = row(f"velocity_ratio.{body.name}", body.velocity_ratio, f"{path}.velocity")
         rotation = row(f"rotation_ratio.{body.name}", body.rotation_ratio, f"{path}.rotation")
@@ -100,18 +92,20 @@ def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str,
             given(f"{key}.{body.name}", value, f"{path}.{name}") if value else absent(key)
             for key, name, value in (("body_mass", "mass", body.mass), ("body_inertia", "inertia", body.inertia))
         )
-        result: TracedValue = reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
+        result: TracedValue = reduction.reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
         return result.named(f"reduced_inertia.{body.name}")
 
     w, inertia = speed_of(machine), total("reduced_inertia", [part(body) for body in table.bodies])
     trace = {"crank_angle": TracedValue(AngleFunction("angle"), "crank_angle"), "reduced_inertia": inertia}
     trace["reduced_inertia_1"] = change = _change(table, grid, inertia, row).named("reduced_inertia_1")
-    dynamic: TracedValue = dynamic_torque(w, change, absent("reduced_inertia"), absent("angular_acceleration"))
-    trace |= {"kinetic_energy": kinetic_energy(inertia, w), "dynamic_torque": dynamic.named("dynamic_torque")}
+    dynamic: TracedValue = reduction.dynamic_torque(
+        w, change, absent("reduced_inertia"), absent("angular_acceleration")
+    )
+    trace |= {"kinetic_energy": reduction.kinetic_energy(inertia, w), "dynamic_torque": dynamic.named("dynamic_torque")}
     static = _static(table, dynamic.named("dynamic_torque"), row)
     if static is None:
         return trace
-    balancing: TracedValue = balancing_torque_of_parts(static, trace["dynamic_torque"])
+    balancing: TracedValue = reduction.balancing_torque_of_parts(static, trace["dynamic_torque"])
     torques = static, trace["dynamic_torque"], traced_inputs.efficiency_of(machine.drive)
     drives = replay(balancing, grid) > 0
     # each position has its own law: no values are defined between positions
@@ -129,14 +123,14 @@ def _change(
         return row(key, table.reduced_inertia_1, f"{table.of_crank}.reduced_inertia_1")
     column, operands = replay(inertia, grid), (inertia,)
     if table.differences == "spectral":
-        return row(key, difference_derivative(grid.angle, column, "spectral"), operands=operands)
+        return row(key, reduction.spectral_derivative(grid.angle, column), operands=operands)
     ahead = row("reduced_inertia.next", np.roll(column, -1), operands=operands)
     step = np.append(np.diff(grid.angle), grid.angle[0] + 2 * np.pi - grid.angle[-1])
     if table.differences == "forward":
-        forward: TracedValue = forward_difference(ahead, inertia, row("crank_angle.step", step))
+        forward: TracedValue = reduction.forward_difference(ahead, inertia, row("crank_angle.step", step))
         return forward
     behind = row("reduced_inertia.previous", np.roll(column, 1), operands=operands)
-    central: TracedValue = central_difference(ahead, behind, row("crank_angle.step", step + np.roll(step, 1)))
+    central: TracedValue = reduction.central_difference(ahead, behind, row("crank_angle.step", step + np.roll(step, 1)))
     return central
 
 
@@ -146,7 +140,7 @@ def _static(table: TransferTable, dynamic: TracedValue, row: Callable[..., Trace
         return row("static_torque", table.static_torque, f"{table.of_crank}.static_torque")
     if table.balancing_torque is not None:
         balancing = row("balancing_torque", table.balancing_torque, f"{table.of_crank}.balancing_torque")
-        left: TracedValue = static_torque_of_balancing(balancing, dynamic)
+        left: TracedValue = reduction.static_torque_of_balancing(balancing, dynamic)
         return left.named("static_torque")
     return None
 

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 from crankwork.analysis import traced_inputs
 from crankwork.analysis.bearings import ON_CRANKPIN, BearingCycle
 from crankwork.analysis.counterweight_balance import counterweight_balance
-from crankwork.analysis.deferred import Deferred
 from crankwork.analysis.equal_cells import with_equal_columns
 from crankwork.analysis.gas_chambers import gas_check, gas_summary, traced_linkage
 from crankwork.analysis.given_motion import DYNAMICS
@@ -41,7 +40,7 @@ from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.prepared import Notice, PreparedLinkage
 from crankwork.analysis.pump_flow import COLUMNS as FLOWS
 from crankwork.analysis.pump_flow import flow_columns, flow_values
-from crankwork.analysis.results import Results
+from crankwork.analysis.results import Deferred, Results
 from crankwork.analysis.rod_load import COLUMNS as ROD_LOADS
 from crankwork.analysis.rod_load import rod_load_columns, rod_load_notices, rod_load_values
 from crankwork.analysis.speed import (

@@ -11,19 +11,10 @@ from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.operating_state import is_shared, traced_joint_forces
 from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.analysis.transmission_quality import transmissions
+from crankwork.dynamics import reduction
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
-from crankwork.dynamics.link_loads import link_angular_acceleration
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, link_angular_acceleration
 from crankwork.dynamics.reaction import JointForces, pin_columns
-from crankwork.dynamics.reduction import (
-    balancing_torque_of_parts,
-    driver_power,
-    dynamic_torque,
-    kinetic_energy,
-    reduced_inertia,
-    reduced_torque,
-    static_torque,
-)
 from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given, reached
 from crankwork.kinematics import kinematic_coefficients as rates
 from crankwork.kinematics.dyads import is_zero
@@ -87,7 +78,7 @@ def _by_law(solved: PreparedLinkage, running: OperatingState, law: Law) -> dict[
     if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction:
         torque, forces = _forces(solved, running)
         driven = torque.named(DRIVEN[machine.mechanism.driver.turns])
-        columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **forces}
+        columns |= {driven.key: driven, "driver_power": reduction.driver_power(driven, rate), **forces}
     return columns
 
 
@@ -155,16 +146,16 @@ def _at_work(solved: PreparedLinkage, running: OperatingState) -> dict[str, Trac
     machine, mechanism, motion, loads = solved.machine, running.mechanism, running.motion, running.loads
     w, eps = running.speed, running.angular_acceleration
     added = turning_inertia(machine, "reduced_inertia.drive")
-    inertia = reduced_inertia(mechanism, motion, added)
-    reduced: TracedValue = reduced_torque(motion, loads)
-    static: TracedValue = absent("static_torque") if reduced.is_absent else static_torque(reduced)
-    dynamic: TracedValue = dynamic_torque(w, inertia.inertia_1, inertia.inertia, eps)
+    inertia = reduction.reduced_inertia(mechanism, motion, added)
+    reduced: TracedValue = reduction.reduced_torque(motion, loads)
+    static: TracedValue = absent("static_torque") if reduced.is_absent else reduction.static_torque(reduced)
+    dynamic: TracedValue = reduction.dynamic_torque(w, inertia.inertia_1, inertia.inertia, eps)
     static, dynamic = static.named("static_torque"), dynamic.named("dynamic_torque")
-    balancing: TracedValue = balancing_torque_of_parts(static, dynamic)
+    balancing: TracedValue = reduction.balancing_torque_of_parts(static, dynamic)
     columns = {
         "reduced_inertia": inertia.inertia,
         "reduced_inertia_1": inertia.inertia_1,
-        "kinetic_energy": kinetic_energy(inertia.inertia, w),
+        "kinetic_energy": reduction.kinetic_energy(inertia.inertia, w),
         "static_torque": static,
         "dynamic_torque": dynamic,
         "balancing_torque": balancing,

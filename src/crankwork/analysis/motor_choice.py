@@ -5,26 +5,18 @@ from __future__ import annotations
 from crankwork.analysis import traced_inputs
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
 from crankwork.machine import Machine
-from crankwork.shaft.motor import (
-    POLE_PAIRS,
-    POWERS_SOURCE,
-    MotorSelection,
-    gear_ratio_of_motor,
-    needed_power,
-    standard_power,
-    synchronous_speed,
-)
+from crankwork.shaft import motor
 
 # share of the largest torque below which a mean is rounding
 _CANCELLED = 1e-12
 
 # where the series of powers is published
-SERIES_SOURCE = POWERS_SOURCE
+SERIES_SOURCE = motor.POWERS_SOURCE
 
 
-def selection_of(machine: Machine) -> MotorSelection:
+def selection_of(machine: Machine) -> motor.MotorSelection:
     """Return how a motor is selected: as stated, or as usual."""
-    return machine.drive.selection or MotorSelection()
+    return machine.drive.selection or motor.MotorSelection()
 
 
 def motor_of_crank(
@@ -50,16 +42,16 @@ def motor_choice(machine: Machine, mean: TracedValue, w: TracedValue) -> dict[st
     path, reserve = "motor_selection.{}".format, absent("power_reserve", 1.0)
     if selection.reserve != 1.0:
         reserve = given("power_reserve", selection.reserve, path("reserve"))
-    power = needed_power(reserve, mean, w, traced_inputs.efficiency_of(machine.drive)).named("motor_power")
+    power = motor.needed_power(reserve, mean, w, traced_inputs.efficiency_of(machine.drive)).named("motor_power")
     result = mean_power(mean, w) | {"motor_power": power}
-    if (size := standard_power(power.value)) is not None:
+    if (size := motor.standard_power(power.value)) is not None:
         result["standard_motor_power"] = TracedValue(
             ProcedureValue(size, "next_size", (power,)), "standard_motor_power"
         )
     slip, frequency = given("rated_slip", selection.slip, path("slip")), selection.frequency
     mains = given("mains_frequency", frequency, path("frequency"), "Hz")
-    for pairs in POLE_PAIRS:
+    for pairs in motor.POLE_PAIRS:
         name = f"{60 * frequency / pairs:.6g}"
-        field = synchronous_speed(mains, given("pole_pairs", pairs), pi).named(f"synchronous_speed.{name}")
-        result[f"motor_ratio.{name}"] = gear_ratio_of_motor(field, slip, w).named(f"motor_ratio.{name}")
+        field = motor.synchronous_speed(mains, given("pole_pairs", pairs), pi).named(f"synchronous_speed.{name}")
+        result[f"motor_ratio.{name}"] = motor.gear_ratio_of_motor(field, slip, w).named(f"motor_ratio.{name}")
     return result

@@ -19,7 +19,7 @@ from crankwork.analysis.results import Results
 from crankwork.analysis.speed import delivered_or_needed
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program, Samples
-from crankwork.formula.traced_value import TracedValue
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
@@ -33,6 +33,29 @@ from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.machine import Machine
 from crankwork.method import Method
 from crankwork.quantities.key import MOVED
+
+_TURN = 360.0
+
+
+def with_travels(results: Results) -> Results:
+    """Return the results of an engine with the crank angles of the ways that its description names.
+
+    A way counts from the top dead centre; a negative one from the bottom dead centre.
+    """
+    cylinder, stroke = results.machine.cylinder, results.summary["stroke"]
+    moved, values = results.trace["piston_displacement"], dict[str, TracedValue]()
+    over = CycleInterpolant({"": moved}, CrankGrid.from_degrees, _TURN)
+    for name, travel in (cylinder.travels if cylinder is not None else {}).items():
+        stated = given(f"piston_displacement.{name}", travel, f"cylinder.travels.{name}")
+        crossings = over.crossings("", travel if travel >= 0 else stroke + travel)
+        for side, angle in zip(("down", "up"), (crossings[:1], crossings[-1:]), strict=True):
+            if len(angle):
+                degrees = float(angle[0])
+                reaching = ProcedureValue(math.radians(degrees), "reached", (moved,), degrees, stated)
+                values[f"travel_{side}.{name}"] = TracedValue(reaching, f"travel_{side}.{name}")
+    summary = {**results.summary, **{key: value.value for key, value in values.items()}}
+    return replace(results, summary=summary, trace={**results.trace, **values})
+
 
 _CHECK_STEP = 1.0
 _MOVING = ("piston_velocity", "piston_acceleration")
@@ -99,8 +122,6 @@ def with_measured(results: Results) -> Results:
     """Return the results of an engine with what follows from its measured pressure and its test."""
     gas, cylinder = results.machine.gas, results.machine.cylinder
     if cylinder is not None and cylinder.travels:
-        from crankwork.analysis.travels import with_travels  # noqa: PLC0415 - loaded where it is needed
-
         results = with_travels(results)
     if gas is not None and gas.combustion is not None:
         from crankwork.analysis.combustion import with_combustion  # noqa: PLC0415 - loaded where it is needed

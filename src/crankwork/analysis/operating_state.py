@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.redundant import (
     RedundantLink,

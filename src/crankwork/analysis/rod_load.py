@@ -9,8 +9,7 @@ import numpy as np
 
 from crankwork.analysis.bearings import reversal_values
 from crankwork.analysis.prepared import Notice, PreparedLinkage
-from crankwork.dynamics.link_loads import link_inertia_force
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, link_inertia_force
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import TracedValue, absent, given, total

@@ -12,14 +12,13 @@ from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.analysis.prepared import PreparedCylinder, relative_difference
 from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import JointForces
 from crankwork.formula.replay import Program, Samples
 from crankwork.formula.traced_value import TracedValue
-from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.motion import body_motions, linkage_motion
 from crankwork.kinematics.piston import only_rod
 from crankwork.loads.applied_loads import AppliedForce, AppliedLoads
 from crankwork.mechanism.dyads import RRP

@@ -202,10 +202,8 @@ def torque_checks(
         each = engine.each_of("crank_torque", samples(CrankGrid.from_degrees(degrees)))
         count = order_count(engine.layout.cycle)
         harmonics = torque_harmonics(each[0], engine.layout.cycle, count)
-        stars, direct = (
-            total_harmonics(harmonics, engine.layout),
-            torque_harmonics(each.sum(axis=0), engine.layout.cycle, count),
-        )
+        stars = total_harmonics(harmonics, engine.layout)
+        direct = torque_harmonics(each.sum(axis=0), engine.layout.cycle, count)
         difference = np.hypot(stars.cosine - direct.cosine, stars.sine - direct.sine)
         result["phase_stars"] = float(np.max(difference)) / (float(np.max(harmonics.amplitude)) or 1.0)
     return result

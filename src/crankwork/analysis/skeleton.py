@@ -10,9 +10,8 @@ import numpy as np
 
 from crankwork.analysis.sampled_motion import Frame, SampledMotion
 from crankwork.kinematics.crank_grid import Array
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, rod_name
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Chain, Dyad, Guide, Point
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
 PIVOT = "crank pivot"

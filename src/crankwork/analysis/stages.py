@@ -354,11 +354,9 @@ class _Compressor:
                 back = formulas.returned_power(clearance, swept, exponents[1], low, high)
                 power = taken - self._keep(f"returned_power{owner}", back)
             powers.append(self._keep(f"stage_power{owner}", power))
-        power, first, (_, low) = (
-            self._keep("stage_power", total("", powers)),
-            self.of("stage_flow", 0),
-            self._pressures(0),
-        )
+        power = self._keep("stage_power", total("", powers))
+        first = self.of("stage_flow", 0)
+        _, low = self._pressures(0)
         high = self._pressures(self.count - 1)[0]
         least = self._keep("isothermal_power", valves.isothermal_power(low, first, high))
         self._keep("isothermal_efficiency", formulas.isothermal_share(least, power))
@@ -446,15 +444,11 @@ def stage_diagrams(results: Results) -> dict[str, StageDiagram]:
             values[f"{key}.{number}"]
             for key in ("suction_pressure", "discharge_pressure", "compression_exponent", "swept_volume")
         )
-        n_2, left = (
-            values.get(f"expansion_exponent.{number}", n_1),
-            values.get(f"clearance_ratio.{number}", 0.0) * swept,
-        )
+        n_2 = values.get(f"expansion_exponent.{number}", n_1)
+        left = values.get(f"clearance_ratio.{number}", 0.0) * swept
         rising = low * (high / low) ** np.linspace(0.0, 1.0, 91)
         volumes = (left + swept) * (low / rising) ** (1 / n_1), left * (high / rising[::-1]) ** (1 / n_2)
-        volume, pressure = (
-            np.concatenate([*volumes, volumes[0][:1]]),
-            np.concatenate([rising, rising[::-1], rising[:1]]),
-        )
+        volume = np.concatenate([*volumes, volumes[0][:1]])
+        pressure = np.concatenate([rising, rising[::-1], rising[:1]])
         diagrams[number] = StageDiagram(volume, pressure)
     return diagrams

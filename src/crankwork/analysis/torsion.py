@@ -3,32 +3,602 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.deferred import Deferred
-from crankwork.analysis.prepared import PreparedMachine
-from crankwork.analysis.results import Listing, Results
-from crankwork.analysis.torsion_machine import throw_inertias
-from crankwork.analysis.torsion_trace import TorsionTrace, torsion_trace
-from crankwork.analysis.torsion_vibration import (
-    NODE,
-    at_rest,
-    damped_values,
-    damper_values,
-    forced_values,
-    vibrating,
-    vibration_listings,
-    vibration_notices,
+from crankwork.analysis.crankshaft_bearings import rotating_mass_of
+from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
+from crankwork.analysis.harmonics import curve_of
+from crankwork.analysis.prepared import Notice, PreparedCylinder, PreparedMachine
+from crankwork.analysis.reduction import MOVING
+from crankwork.analysis.results import Deferred, Listing, Results
+from crankwork.cylinders.arrangement import inline
+from crankwork.cylinders.layout import CylinderPlace
+from crankwork.cylinders.torque import curve_harmonics
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.traced_value import (
+    FunctionValue,
+    HarmonicCoefficient,
+    ProcedureValue,
+    TracedValue,
+    absent,
+    given,
+    total,
 )
-from crankwork.formula.traced_value import FunctionValue, ProcedureValue, TracedValue, given
-from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.machine import Machine
-from crankwork.shaft.torsion_model import GROUNDED
-from crankwork.shaft.torsion_replay import NaturalModes
-from crankwork.shaft.torsional_system import HolzerTable, Modes
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.machine import Engine, Machine
+from crankwork.shaft import torsion_formulas as formulas
+from crankwork.shaft.torsion_model import GROUNDED, ElasticShaft, ShaftPart, TorsionModel, structure_of, walked
+from crankwork.shaft.torsional_system import (
+    DampedDisc,
+    ForcedVibration,
+    HolzerTable,
+    Modes,
+    NaturalModes,
+    TorsionalStructure,
+    Wave,
+    damped_modes,
+)
+
+_TURN, _CYCLE = 360.0, 720.0
+
+
+def engine_of(results: Results) -> MultiCylinderEngine | None:
+    """Return all cylinders of an engine, one where there is one crank gear; None of another machine."""
+    solved = results.solved
+    if not isinstance(solved, PreparedCylinder):
+        return None
+    if solved.machine.engine is not None:
+        return multi_cylinder_engine(solved)
+    layout, _ = inline(1, (1,), strokes=4 if solved.machine.cycle == _CYCLE else 2)
+    return MultiCylinderEngine(solved.machine, Engine(layout), (solved,))
+
+
+def throw_inertias(results: Results) -> tuple[Mapping[str, TracedValue], TracedValue | None]:
+    """Return the mean over the cycle of the reduced inertia of the cylinders of each throw, and the crank radius."""
+    engine = engine_of(results)
+    if engine is None:
+        return {}, None
+    radius = engine.master.trace["crank_radius"]
+    if engine.machine.masses is None:
+        return {}, radius
+    throws: dict[str, list[TracedValue]] = {}
+    means = dict[int, TracedValue]()
+    for place, cylinder in zip(engine.layout.places, engine.cylinders, strict=True):
+        parts = throws.setdefault(f"throw_{place.throw + 1}", [])
+        if id(cylinder) not in means:
+            moving = [
+                cylinder.trace[key] for key in (f"reduced_inertia.{part}" for part in MOVING) if key in cylinder.trace
+            ]
+            column = total("reduced_inertia.moving", moving)
+            over = CycleInterpolant({column.key: column}, CrankGrid.from_degrees, _TURN)
+            means[id(cylinder)] = over.mean(column.key, "reduced_inertia.mean")
+        rotating = rotating_mass_of(engine, place) * radius * radius
+        parts += [means[id(cylinder)], rotating.named("reduced_inertia.rotating")]
+    return {name: total("disc_inertia", parts) for name, parts in throws.items()}, radius
+
+
+class _Harmonic(NamedTuple):
+    """One order of a torque of a cylinder, traced, and whether it grows with the square of the speed."""
+
+    order: float
+    cosine: TracedValue
+    sine: TracedValue
+    is_inertia: bool
+
+
+def gas_and_inertia_torques(
+    engine: MultiCylinderEngine, highest: float
+) -> Iterator[tuple[CylinderPlace, tuple[_Harmonic, ...]]]:
+    """Yield every cylinder with the harmonics of its torque: of its gas, then of all else (den_hartog_1956, ch. 5)."""
+    kinds = dict[int, tuple[_Harmonic, ...]]()
+    cycle = engine.layout.cycle
+    for place, cylinder in zip(engine.layout.places, engine.cylinders, strict=True):
+        if id(cylinder) not in kinds:
+            own, torque = cylinder.trace, cylinder.trace["crank_torque"]
+            columns = {"crank_torque.inertia": torque.named("crank_torque.inertia")}
+            if "gas_force" in own:
+                gas = (own["gas_force"] * own["piston_transfer_1"]).named("crank_torque.gas")
+                columns = {gas.key: gas, "crank_torque.inertia": (torque - gas).named("crank_torque.inertia")}
+            over = CycleInterpolant(columns, CrankGrid.from_degrees, cycle)
+            kinds[id(cylinder)] = tuple(
+                harmonic for key in columns for harmonic in _harmonics(over, key, round(highest * cycle / _TURN))
+            )
+        yield place, kinds[id(cylinder)]
+
+
+def _harmonics(over: CycleInterpolant, key: str, count: int) -> Iterator[_Harmonic]:
+    """Yield the harmonics of a torque."""
+    if over.is_zero(key):
+        return
+    column, harmonics = over.columns[key], curve_harmonics(curve_of(over, key), count)
+    for order, a, b in zip(harmonics.orders.tolist(), harmonics.cosine.tolist(), harmonics.sine.tolist(), strict=True):
+        cosine, sine = (
+            TracedValue(HarmonicCoefficient(value, column, part, order), f"harmonic_{part}.{order:g}")
+            for part, value in (("cosine", a), ("sine", b))
+        )
+        yield _Harmonic(order, cosine, sine, key.endswith("inertia"))
+
+
+_PATH = "torsion"
+
+
+@dataclass(frozen=True)
+class TorsionTrace:
+    """A torsional system with its traced numbers: discs and rings by name, shafts and springs, gears."""
+
+    model: TorsionModel
+    structure: TorsionalStructure
+    names: tuple[str, ...]  # Of discs, rings last
+    inertia: Mapping[str, TracedValue]
+    stiffness: Mapping[str, TracedValue]  # Of shafts and of springs of dampers
+    ratio: Mapping[str, TracedValue]  # Of gears
+    own_inertia: Mapping[str, TracedValue]  # Of shafts whose mass counts
+    lengths: Mapping[str, TracedValue]  # Equivalent lengths of shafts
+    values: Mapping[str, TracedValue]  # By key
+    geared: Mapping[str, TracedValue]  # Speed of discs over that of the first one, where they differ
+
+    @property
+    def elastic(self) -> tuple[TracedValue, ...]:
+        """The numbers of the system without what only dampers hold."""
+        kept = self.names[: len(self.names) - self.structure.rings]
+        return (*(self.inertia[name] for name in kept), *self.stiffness.values(), *self.ratio.values(),
+                *self.own_inertia.values())  # fmt: skip
+
+
+def torsion_trace(
+    model: TorsionModel, own: Mapping[str, TracedValue], pi: float, radius: TracedValue | None = None
+) -> TorsionTrace:
+    """Return the traced numbers of a system; `own`: inertias of throws, `radius`: of the crank, of the machine."""
+    names, values = walked(model), dict[str, TracedValue]()
+    inertia = {name: _inertia(model, name, own).named(f"disc_inertia.{name}") for name in names}
+    ratio = {name: _ratio(model, name) for name in model.gears}
+    geared = _speed_ratios(model, names, ratio)
+    reference = _reference(model, pi)
+    stiffness, lengths, heavy = dict[str, TracedValue](), dict[str, TracedValue](), dict[str, TracedValue]()
+    for name, shaft in model.shafts.items():
+        stiffness[name], length = _stiffness(model, shaft, f"torsional_stiffness.{name}", reference, (pi, radius))
+        if length is not None:
+            first = next(end for end in shaft.between if end in inertia)
+            reduced = formulas.length_at_first_speed(length.named(f"equivalent_length.{name}.own"), geared[first]) if (
+                first in geared) else length  # fmt: skip
+            lengths[name] = reduced.named(f"equivalent_length.{name}")
+        if shaft.density is not None:
+            density = given("shaft_density", shaft.density, f"{shaft.path}.density")
+            part, moment = shaft.parts[0], _moment(shaft.path, shaft.parts[0], pi)
+            heavy[name] = formulas.inertia_of_shaft(density, moment, _length(shaft.path, part)).named(
+                f"shaft_inertia.{name}"
+            )
+    for name, damper in model.dampers.items():
+        if damper.stiffness:
+            stiffness[name] = given(
+                f"torsional_stiffness.{name}", damper.stiffness, f"{_PATH}.dampers.{name}.stiffness"
+            )
+    values |= {item.key: item for item in (*inertia.values(), *stiffness.values(), *lengths.values(), *heavy.values())}
+    for name, u in geared.items():
+        values[u.key] = u
+        values[f"equivalent_inertia.{name}"] = formulas.inertia_at_first_speed(inertia[name], u).named(
+            f"equivalent_inertia.{name}"
+        )
+    if len(lengths) == len(model.shafts) > 1 and structure_of(model).is_tree:
+        values["equivalent_length"] = total("equivalent_length", lengths.values())
+    return TorsionTrace(model, structure_of(model), names, inertia, stiffness, ratio, heavy, lengths, values, geared)
+
+
+def _inertia(model: TorsionModel, name: str, own: Mapping[str, TracedValue]) -> TracedValue:
+    """Return the moment of inertia of a disc, of the ring of a damper, or of a throw."""
+    if name in model.dampers:
+        return given("disc_inertia", model.dampers[name].inertia, f"{_PATH}.dampers.{name}.inertia")
+    if name in model.throws:
+        parts = [own[name]] if name in own else []
+        if model.throw_inertia or not parts:
+            parts.append(given("disc_inertia", model.throw_inertia, f"{_PATH}.throw_inertia"))
+        return total("disc_inertia", parts)
+    disc, path = model.discs[name], f"{_PATH}.discs.{name}"
+    if disc.inertia is not None:
+        return given("disc_inertia", disc.inertia, f"{path}.inertia")
+    mass = given("disc_mass", disc.mass or 0.0, f"{path}.mass")
+    radius = given("disc_gyration_radius", disc.radius_of_gyration or 0.0, f"{path}.radius_of_gyration")
+    inertia: TracedValue = formulas.inertia_of_disc(mass, radius)
+    return inertia
+
+
+def _ratio(model: TorsionModel, name: str) -> TracedValue:
+    gear, path = model.gears[name], f"{_PATH}.gears.{name}"
+    if gear.teeth is None:
+        return given(f"speed_ratio.{name}", gear.ratio, f"{path}.ratio")
+    first, second = (given("teeth", count, f"{path}.teeth[{place}]") for place, count in enumerate(gear.teeth, start=1))
+    return (first / second).named(f"speed_ratio.{name}")
+
+
+def _speed_ratios(
+    model: TorsionModel, names: tuple[str, ...], ratio: Mapping[str, TracedValue]
+) -> dict[str, TracedValue]:
+    """Return the speed of every disc that turns at another speed than the first one, over that speed."""
+    if not model.gears:
+        return {}
+    known: dict[str, TracedValue | None] = {names[0]: None}
+    links: list[tuple[tuple[str, str], str]] = [(shaft.between, "") for shaft in model.shafts.values()]
+    links += [(gear.between, name) for name, gear in model.gears.items()]
+    for _ in links:
+        for (first, second), gear in links:
+            for disc, other in ((first, second), (second, first)):
+                if disc not in known or other in known or other not in names:
+                    continue
+                value = known[disc]
+                if gear:
+                    factor = ratio[gear] if disc == first else 1.0 / ratio[gear]
+                    value = factor if value is None else value * factor
+                known[other] = None if value is None else value.named(f"speed_ratio.{other}")
+    return {name: value for name, value in known.items() if value is not None}
+
+
+def _reference(model: TorsionModel, pi: float) -> TracedValue | None:
+    """Return the polar moment of the shaft that equivalent lengths are of: stated, or the first section."""
+    diameter = model.reference_diameter
+    if diameter is not None:
+        moment = _solid(pi, given("reference_diameter", diameter, f"{_PATH}.reference_diameter"))
+        return moment.named("polar_moment.reference")
+    first = next((shaft for shaft in model.shafts.values() if shaft.parts), None)
+    return None if first is None else _moment(_part_path(first, 0), first.parts[0], pi).named("polar_moment.reference")
+
+
+def _part_path(shaft: ElasticShaft, index: int) -> str:
+    return shaft.path if len(shaft.parts) == 1 and shaft.diameter is not None else f"{shaft.path}.parts[{index + 1}]"
+
+
+def _length(path: str, part: ShaftPart) -> TracedValue:
+    return given("shaft_length", part.length, f"{path}.length")
+
+
+def section(path: str, diameter: float, bore: float) -> tuple[TracedValue, TracedValue]:
+    """Return outer diameter and bore of a section."""
+    inner = given("shaft_bore", bore, f"{path}.bore") if bore else absent("shaft_bore")
+    return given("shaft_diameter", diameter, f"{path}.diameter"), inner
+
+
+def _solid(pi: float, diameter: TracedValue) -> TracedValue:
+    moment: TracedValue = formulas.polar_moment(pi, diameter, absent("shaft_bore"))
+    return moment
+
+
+def _moment(path: str, part: ShaftPart, pi: float) -> TracedValue:
+    moment: TracedValue = formulas.polar_moment(pi, *section(path, part.diameter, part.bore))
+    return moment
+
+
+def _stiffness(
+    model: TorsionModel,
+    shaft: ElasticShaft,
+    key: str,
+    reference: TracedValue | None,
+    inputs: tuple[float, TracedValue | None],
+) -> tuple[TracedValue, TracedValue | None]:
+    """Return the stiffness of a shaft, and its equivalent length where its sizes are known; `inputs`: pi and radius."""
+    (pi, radius), path, name = inputs, shaft.path, key.partition(".")[2]
+    if shaft.stiffness is not None:
+        return given(key, shaft.stiffness, f"{path}.stiffness"), None
+    own = shaft.modulus is not None
+    modulus = given("shear_modulus", shaft.modulus or model.modulus, f"{path}.modulus" if own else f"{_PATH}.modulus")
+    if shaft.throw is not None:
+        sizes = {item: _throw_size(shaft, item, radius) for item in _SIZES}
+        length = formulas.THROW_FORMULAS[shaft.throw.formula](*sizes.values()).named(f"equivalent_length.{name}")
+        moment = _solid(pi, sizes["journal_diameter"]).named(f"polar_moment.{name}")
+        return formulas.stiffness_of_length(modulus, moment, length).named(key), length
+    if reference is None:
+        raise TypeError("a shaft without a stiffness has sections")
+    lengths = []
+    for index, part in enumerate(shaft.parts):
+        place, number = _part_path(shaft, index), f"{name}.{index + 1}"
+        moment = _moment(place, part, pi).named(f"polar_moment.{number}")
+        lengths.append(
+            formulas.equivalent_length(_length(place, part), reference, moment).named(f"equivalent_length.{number}")
+        )
+    length = total(f"equivalent_length.{name}", lengths)
+    return formulas.stiffness_of_length(modulus, reference, length).named(key), length
+
+
+_SIZES = ("journal_length", "journal_diameter", "journal_bore", "pin_length", "pin_diameter", "pin_bore", "radius",
+          "web_thickness", "web_width")  # fmt: skip
+
+
+def _throw_size(shaft: ElasticShaft, name: str, radius: TracedValue | None) -> TracedValue:
+    value = getattr(shaft.throw, name)
+    if name == "radius":
+        return (
+            radius
+            if value is None and radius is not None
+            else given("crank_radius", value, f"{shaft.path}.throw.radius")
+        )
+    return given(name, value, f"{shaft.path}.throw.{name}") if value else absent(name)
+
+
+# range of speeds where none is stated, over that of the machine, and points of it
+_RANGE, _POINTS = (0.2, 1.2), 161
+_MOST_PERIODS = 12
+# an amplitude below this part of the largest is that of a node
+NODE = 1e-9
+
+
+class Excitation(NamedTuple):
+    """What excites: waves, the traced numbers that they are made of, the angle after which they repeat. [rad]"""
+
+    waves: tuple[Wave, ...]
+    numbers: tuple[TracedValue, ...]
+    cycle: float
+    # Discs with the order of a torque and by which it is ahead, or without an order by which all are late [rad]
+    phases: tuple[tuple[int, float | None, float], ...]
+
+
+class Vibrating(NamedTuple):
+    """A torsional system with its numbers, undamped modes and excitation."""
+
+    trace: TorsionTrace
+    modes: Modes
+    forced: ForcedVibration
+    operands: tuple[TracedValue, ...]
+    excitation: Excitation
+    speed: float
+
+    @property
+    def numbers(self) -> Array:
+        """The numbers of the operands."""
+        return np.array([operand.value for operand in self.operands])
+
+    @property
+    def is_damped(self) -> bool:
+        """Whether anything damps."""
+        system = self.forced.system(self.numbers)
+        return bool(np.any(system.disc_damping) or np.any(system.shaft_damping) or np.any(system.loss_factor))
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest speed that is looked at. [rad/s]"""
+        stated = self.trace.model.speeds
+        return stated or (_RANGE[0] * self.speed, _RANGE[1] * self.speed)
+
+
+def vibrating(results: Results, trace: TorsionTrace, modes: Modes) -> Vibrating:
+    """Return a torsional system with what excites and damps it."""
+    model, count = trace.model, len(trace.structure.shafts)
+    natural = NaturalModes(trace.structure, model.modes)
+    none = absent("angular_damping")
+    held = [_damping(f"{_PATH}.discs.{name}", model.discs[name].damping) if name in model.discs else none
+            for name in trace.names]  # fmt: skip
+    dampers = sorted(model.dampers.items(), key=lambda item: item[1].stiffness <= 0)
+    relative = [_damping(item.path, item.damping) for item in model.shafts.values()]
+    relative += [_damping(f"{_PATH}.dampers.{name}", item.damping) for name, item in dampers]
+    loss = [given("loss_factor", item.loss_factor, f"{item.path}.loss_factor") for item in model.shafts.values()]
+    stiffness = [*trace.stiffness.values(), *[absent("torsional_stiffness")] * trace.structure.rings]
+    speed = results.trace.get("speed", given("speed", results.machine.speed, "crank.speed"))
+    excitation = _excitation(results, trace)
+    operands = (
+        *trace.inertia.values(), *stiffness, *trace.ratio.values(), *trace.own_inertia.values(), *held, *relative,
+        *loss, *[absent("loss_factor")] * (count - len(loss)), speed, *excitation.numbers,
+    )  # fmt: skip
+    forced = ForcedVibration(natural, excitation.waves, excitation.cycle)
+    # discs and shafts alone need no speed
+    is_known = engine_of(results) is not None or "crank.speed" in results.machine.stated
+    return Vibrating(trace, modes, forced, operands, excitation, speed.value if is_known else 0.0)
+
+
+def _damping(path: str, value: float) -> TracedValue:
+    return given("angular_damping", value, f"{path}.damping") if value else absent("angular_damping")
+
+
+def _excitation(results: Results, trace: TorsionTrace) -> Excitation:
+    """Return the torques that a file states, and those of the cylinders of an engine."""
+    number = {name: index for index, name in enumerate(trace.names)}
+    waves, numbers, phases = list[Wave](), list[TracedValue](), list[tuple[int, float | None, float]]()
+    for index, torque in enumerate(trace.model.torques, start=1):
+        path, disc, own = f"{_PATH}.torques[{index}]", number[torque.disc], len(numbers)
+        numbers.append(given("excitation_torque", torque.torque, f"{path}.torque"))
+        phases.append((disc, torque.order, torque.phase))
+        if torque.frequency is not None:
+            numbers.append(given("angular_frequency", torque.frequency, f"{path}.frequency"))
+            waves.append(Wave(disc, 0.0, own, None, torque.phase, frequency=own + 1))
+        else:
+            waves.append(Wave(disc, torque.order or 1.0, own, None, torque.phase))
+    engine = engine_of(results)
+    if engine is not None and "crank_torque" in engine.master.trace:
+        cycle, places = math.radians(engine.layout.cycle), dict[int, int]()
+        for place, torques in gas_and_inertia_torques(engine, trace.model.orders):
+            disc, delay = number[f"throw_{place.throw + 1}"], math.radians(place.firing_angle)
+            phases.append((disc, None, delay))
+            for order, cosine, sine, is_inertia in torques:
+                if id(cosine) not in places:
+                    places[id(cosine)] = len(numbers)
+                    numbers += [cosine, sine]
+                own = places[id(cosine)]
+                waves.append(Wave(disc, order, own, own + 1, -order * delay, is_inertia=is_inertia))
+        return Excitation(tuple(waves), tuple(numbers), cycle, tuple(phases))
+    orders = [wave.order for wave in waves if wave.frequency is None]
+    periods = next((count for count in range(1, _MOST_PERIODS) if all((count * order) % 1 == 0 for order in orders)), 2)
+    return Excitation(tuple(waves), tuple(numbers), periods * math.tau, tuple(phases))
+
+
+def forced_values(system: Vibrating, pi: float) -> dict[str, TracedValue]:
+    """Return the largest angles of discs, torques and stresses of shafts at the speed of the machine."""
+    if not system.excitation.waves:
+        return {}
+    trace, forced = system.trace, system.forced
+    largest, values = forced(np.empty(0), system.numbers[:, None, None]), dict[str, TracedValue]()
+    keys = [f"vibration_amplitude.{name}" for name in trace.names]
+    keys += [f"vibration_torque.{name}" for name in (*trace.stiffness, *_rings(trace.model))]
+    for part, (key, value) in enumerate(zip(keys, largest, strict=True)):
+        values[key] = TracedValue(FunctionValue(value, "forced", system.operands, forced, part), key)
+    for name, shaft in trace.model.shafts.items():
+        sizes = _section(shaft)
+        if sizes is not None:
+            key = f"vibration_stress.{name}"
+            values[key] = formulas.stress_of_torque(values[f"vibration_torque.{name}"], pi, *sizes).named(key)
+    return values
+
+
+def _rings(model: TorsionModel) -> list[str]:
+    return [name for name, damper in model.dampers.items() if damper.stiffness <= 0]
+
+
+def _section(shaft: ElasticShaft) -> tuple[TracedValue, TracedValue] | None:
+    """Return outer diameter and bore where a shaft is weakest."""
+    sections = [(part.diameter, part.bore, shaft.path if len(shaft.parts) == 1 and shaft.diameter else
+                 f"{shaft.path}.parts[{index}]") for index, part in enumerate(shaft.parts, start=1)]  # fmt: skip
+    if shaft.diameter is not None and not sections:
+        sections = [(shaft.diameter, shaft.bore, shaft.path)]
+    if shaft.throw is not None:
+        pin, journal = shaft.throw.pin_diameter, shaft.throw.journal_diameter
+        name = "pin" if pin < journal else "journal"
+        size, bore = (getattr(shaft.throw, f"{name}_{part}") for part in ("diameter", "bore"))
+        path = f"{shaft.path}.throw.{name}"
+        inner = given(f"{name}_bore", bore, f"{path}_bore") if bore else absent("shaft_bore")
+        return given(f"{name}_diameter", size, f"{path}_diameter"), inner
+    if not sections:
+        return None
+    diameter, bore, path = min(sections, key=lambda item: (item[0] ** 4 - item[1] ** 4) / item[0])
+    return section(path, diameter, bore)
+
+
+def damper_values(results: Results, system: Vibrating) -> dict[str, TracedValue]:
+    """Return what is best for each damper: inertia ratio, damping, spring, and the peak that is left."""
+    values, model = dict[str, TracedValue](), system.trace.model
+    bare = torsion_trace(replace(model, dampers={}), dict(system.trace.inertia), results.method.pi,
+                         results.trace.get("crank_radius"))  # fmt: skip
+    operands = bare.elastic
+    for name, damper in model.dampers.items():
+        function = DampedDisc(NaturalModes(bare.structure, max(model.modes, damper.mode)), bare.names.index(damper.on),
+                              damper.mode)  # fmt: skip
+        w, inertia = function.of([operand.value for operand in operands])
+        if not math.isfinite(w):
+            continue
+        w_j, J = (
+            TracedValue(FunctionValue(value, "eigenvalue", operands, function, part), f"{key}.{name}")
+            for part, (key, value) in enumerate((("angular_frequency", w), ("effective_inertia", inertia)))
+        )
+        ring = system.trace.inertia[name]
+        mu = formulas.damper_inertia_ratio(ring, J).named(f"damper_inertia_ratio.{name}")
+        best = {"effective_inertia": J, "damper_inertia_ratio": mu}
+        if damper.stiffness:
+            best["optimum_tuning"] = formulas.tuned_frequency_ratio(mu)
+            best["optimum_stiffness"] = formulas.stiffness_of_ring(ring, best["optimum_tuning"], w_j)
+            best["optimum_damping_ratio"], peak = formulas.tuned_damping(mu), formulas.tuned_magnification(mu)
+        else:
+            best["optimum_damping_ratio"], peak = formulas.untuned_damping(mu), formulas.untuned_magnification(mu)
+        best["optimum_damping"] = formulas.damping_of_ring(best["optimum_damping_ratio"], ring, w_j)
+        best["least_magnification"] = peak
+        values |= {f"{key}.{name}": value.named(f"{key}.{name}") for key, value in best.items()}
+    return values
+
+
+def damped_values(system: Vibrating) -> dict[str, Array]:
+    """Return damped frequencies and damping ratios as columns, where viscous damping is stated."""
+    damped, inertia = system.forced.system(system.numbers), system.trace.inertia.values()
+    if not (np.any(damped.disc_damping) or np.any(damped.shaft_damping)) or not all(item.value for item in inertia):
+        return {}
+    roots = damped_modes(damped)
+    size = np.abs(roots)
+    return {"mode_number": np.arange(1.0, roots.size + 1), "damped_frequency": roots.imag, "natural_frequency": size,
+            "damping_ratio": -roots.real / size}  # fmt: skip
+
+
+def vibration_listings(system: Vibrating, pi: float) -> dict[str, Listing]:
+    """Return critical speeds by order, and vibration over the range of speeds."""
+    listings = dict[str, Listing]()
+    critical = _critical_speeds(system)
+    if critical["critical_speed"].size:
+        listings["critical_speeds"] = Listing(critical)
+    if any(wave.frequency is None for wave in system.excitation.waves):
+        listings["torsional_response"] = Listing(_response(system, critical["critical_speed"], pi))
+    return listings
+
+
+def at_rest(names: Sequence[str], shape: Array) -> list[str]:
+    """Return the discs in which a mode has a node."""
+    return [name for name, own in zip(names, shape.tolist(), strict=False) if abs(own) < NODE * np.max(np.abs(shape))]
+
+
+def _orders(system: Vibrating) -> Array:
+    """Return the orders that excite, all whole ones up to the highest where nothing does."""
+    own = sorted({wave.order for wave in system.excitation.waves if wave.frequency is None})
+    return np.array(own) if own else np.arange(1.0, math.floor(system.trace.model.orders) + 1)
+
+
+def _critical_speeds(system: Vibrating) -> dict[str, Array]:
+    """Return modes, orders and critical speeds in the range, with sums of phase vectors and amplitudes at resonance."""
+    low, high = system.range
+    rows = [
+        (mode, w, order)
+        for mode, w in enumerate(system.modes.frequency.tolist())
+        for order in _orders(system).tolist()
+        if low <= formulas.speed_of_order(w, order) <= high
+    ]
+    columns = {
+        "mode_number": np.array([mode + 1.0 for mode, _, _ in rows]),
+        "harmonic_order": np.array([order for _, _, order in rows]),
+        "critical_speed": np.array([formulas.speed_of_order(w, order) for _, w, order in rows]),
+    }
+    if not rows or not any(wave.frequency is None for wave in system.excitation.waves):
+        return columns
+    sums, works, amplitudes = [], [], []
+    orders, torque = system.forced.amplitudes(system.numbers, columns["critical_speed"])
+    damped = system.forced.system(system.numbers) if system.is_damped else None
+    for row, (mode, w, order) in enumerate(rows):
+        shape, own = system.modes.shape[mode], torque[row, np.searchsorted(orders, order)]
+        vectors = (
+            shape[disc] * np.exp(1j * (-order * angle if own_order is None else angle))
+            for disc, own_order, angle in system.excitation.phases
+            if own_order in (None, order)
+        )
+        sums.append(abs(sum(vectors)))
+        works.append(abs(shape @ own[: shape.size]))
+        if damped is not None:
+            amplitudes.append(abs(damped.forced([w], own[None])[0][0, 0]))
+    columns |= {"mode_phase_sum": np.array(sums), "excitation_torque": np.array(works)}
+    return columns | ({"resonance_amplitude": np.array(amplitudes)} if amplitudes else {})
+
+
+def _response(system: Vibrating, critical: Array, pi: float) -> dict[str, Array]:
+    """Return largest angles, torques and stresses over the range of speeds."""
+    speeds = np.linspace(*system.range, _POINTS)
+    if system.is_damped:
+        # peaks are narrow
+        speeds = np.unique(np.concatenate([speeds, critical]))
+    vibration = system.forced.vibration(system.numbers, speeds)
+    columns: dict[str, Array] = {"rotational_speed": speeds}
+    for name, values in zip(system.trace.names, vibration.largest_angle.T, strict=True):
+        columns[f"vibration_amplitude.{name}"] = values
+    shafts = system.trace.model.shafts
+    for name, values in zip(shafts, vibration.largest_torque.T, strict=False):
+        columns[f"vibration_torque.{name}"] = values
+    for name, shaft in shafts.items():
+        sizes = _section(shaft)
+        if sizes is not None:
+            diameter, bore = (size.value for size in sizes)
+            stress = formulas.stress_of_torque(columns[f"vibration_torque.{name}"], pi, diameter, bore)
+            columns[f"vibration_stress.{name}"] = np.asarray(stress)
+    return columns
+
+
+def vibration_notices(system: Vibrating, radius: float | None) -> Iterator[Notice]:
+    """Yield nodes in discs, rings that nothing holds, that nothing damps, and throws whose pins overlap."""
+    for mode, shape in enumerate(system.modes.shape, start=1):
+        for name in at_rest(system.trace.names, shape):
+            yield Notice("torsion_node", {"mode": mode, "name": name})
+    for name, damper in system.trace.model.dampers.items():
+        if not damper.damping and not damper.stiffness:
+            yield Notice("torsion_free_ring", {"name": name})
+    if system.excitation.waves and not system.is_damped:
+        yield Notice("torsion_undamped", {})
+    throws: Sequence[ElasticShaft] = [item for item in system.trace.model.shafts.values() if item.throw is not None]
+    for shaft in throws[:1]:
+        throw = shaft.throw
+        if (
+            throw is not None
+            and (throw.radius or radius or math.inf) < (throw.pin_diameter + throw.journal_diameter) / 2
+        ):
+            yield Notice("torsion_overlap", {"path": shaft.path})
 
 
 def shaft_alone(machine: Machine, grid: CrankGrid | None = None) -> Results:

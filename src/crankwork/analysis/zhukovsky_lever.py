@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.acting_forces import acting_forces, acting_torques, first_value
+from crankwork.analysis.force_plans import acting_forces, acting_torques, first_value
 from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.results import Results
 from crankwork.analysis.sampled_motion import sample_motion

@@ -26,7 +26,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Cylinder, Drive, Engine, Gas, Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
 from crankwork.method import EXACT, Method
-from crankwork.shaft.flywheel_sizing import FlywheelSpec, RimSpec, inertia_of_rim, inertia_of_wheel, mass_of_rim
+from crankwork.shaft.flywheel import FlywheelSpec, RimSpec, inertia_of_rim, inertia_of_wheel, mass_of_rim
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, MotorSelection
 from crankwork.units import UNITS
 from crankwork.working_cycle.engine_size import bore_and_stroke

@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
-from crankwork.cylinders.arrangement import StandardOrder, build_layout, standard_orders
+from crankwork.cylinders.arrangement import StandardOrder, boxer, build_layout, inline, radial, standard_orders, vee
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
-from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
@@ -22,8 +21,7 @@ from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Bearings, Engine, Machine, PinBearing, Shaft
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import Point
+from crankwork.mechanism.dyads import Chain, Point
 from crankwork.mechanism.joints import Pin, names_of_pivots
 from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from crankwork.analysis.form_paths import relocate
+from crankwork.analysis.cell_gas import relocate
 from crankwork.description.keys import CYCLE
 from crankwork.description.schema import Values
 from crankwork.description.value_types import MeasuredValue, Reader

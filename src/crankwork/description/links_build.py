@@ -42,7 +42,7 @@ from crankwork.description.range_checks import (
 from crankwork.description.schema import Values, no_effect_message, stated_numbers
 from crankwork.description.stages_build import stage_valves
 from crankwork.description.value_types import MeasuredValue, Reader
-from crankwork.dynamics.tabulated_inertia import TabulatedBody
+from crankwork.dynamics.reduction import TabulatedBody
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfCycle, Vessel
 from crankwork.loads.curves import LoadCurve as LoadTable
 from crankwork.loads.indicator import DiagramError

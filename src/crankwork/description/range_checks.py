@@ -35,9 +35,8 @@ from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import Load, ProcessForce, applied_loads
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
-from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Chain
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 from crankwork.mechanism.structure import mobility

@@ -41,7 +41,7 @@ from crankwork.shaft.torsion_model import (
     structure_of,
     walked,
 )
-from crankwork.shaft.torsion_replay import NaturalModes
+from crankwork.shaft.torsional_system import NaturalModes
 
 _TABLES = ("torque", "load")
 _OF_ENERGY = ("areas", "excess_work", "energy_fluctuation")

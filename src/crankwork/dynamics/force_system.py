@@ -9,15 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from crankwork.dynamics.dyad_forces import force_along
-from crankwork.dynamics.link_loads import Wrench, Wrenches, arm
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, Wrench, Wrenches, arm
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, joint_place
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import Component, Root, TracedValue, is_traced, sum_terms, total
-from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.loop_closure import solve_positions
-from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion import Motion, body_motions
 from crankwork.loads.applied_loads import AppliedForce, AppliedLoads, AppliedTorque
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints, origin_of

@@ -19,14 +19,12 @@ from crankwork.dynamics.friction_equations import (
     Status,
     Truth,
 )
-from crankwork.dynamics.link_loads import Wrenches, arm, cross, link_wrenches
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, Wrenches, arm, cross, link_wrenches
 from crankwork.dynamics.reaction import JointForces, collect_reactions
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion import Motion, broadcast
 from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
 from crankwork.mechanism.linkage import GROUND
@@ -213,11 +211,11 @@ def relative_rate(motion: Motion, joint: Joint) -> Value:
     return own if joint.other == GROUND else own - motion.frames[joint.other].angle_1
 
 
-def friction_forces(running: OperatingState, friction: Sequence[Friction], *, thorough: bool = False) -> FrictionForces:
+def friction_forces(running: OperatingState, friction: Sequence[Friction]) -> FrictionForces:
     """Return the joint forces of a mechanism with friction in some joints (artobolevsky_1988, ch. 11 and 13-14).
 
     Forces, torque, losses, efficiency, residual and status at each crank angle. `running`: the mechanism at work; the
-    crank turns forward unless its speed is negative; `thorough`: look for a second solution.
+    crank turns forward unless its speed is negative.
 
     Friction in a pin is a moment rho |R| against the relative rotation; on a guide a force f |N| against the
     sliding, with 2 |M| / length in place of |N| where the moment M of the guide is so large that the piece
@@ -226,13 +224,16 @@ def friction_forces(running: OperatingState, friction: Sequence[Friction], *, th
     its sign there is one solution. Where it changes it, the torque has grown beyond all bounds before, or there is none
     that turns the crank: self-locking.
     """
-    return solve_with_friction(running, friction_joints(running, friction), thorough=thorough)
+    return solve_with_friction(running, friction_joints(running, friction))
 
 
 def solve_with_friction(
     running: OperatingState, joints: Sequence[FrictionJoint], *, thorough: bool = False
 ) -> FrictionForces:
-    """Return the joint forces with friction for given relative motions in the joints."""
+    """Return the joint forces with friction for given relative motions in the joints.
+
+    `thorough`: look for a second solution.
+    """
     system, wrenches = full_equilibrium(running), link_wrenches(running)
     right = system.right_side(wrenches)
     equations = FrictionEquations(running, system, right, joints)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.dynamics.force_system import Equilibrium
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.loop_closure import solve_positions
 from crankwork.mechanism.driver import Cylinder, LinkMotor

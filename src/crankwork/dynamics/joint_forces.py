@@ -27,8 +27,7 @@ from crankwork.dynamics.dyad_forces import (
     rrr_forces,
 )
 from crankwork.dynamics.force_system import cylinder_force, solved_group
-from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, link_wrenches, moment_of
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, Wrench, Wrenches, arm, link_wrenches, moment_of
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, reaction_wrench
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.replay import Program
@@ -38,10 +37,19 @@ from crankwork.kinematics.dyads import BEYOND
 from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.traced_motion import Follower, interpolant_of
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.change_point import ChangePointFit, ChangePointPassage, Polynomial
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, LinkMotor
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
+from crankwork.mechanism.dyads import (
+    PRP,
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    Chain,
+    ChangePointFit,
+    ChangePointPassage,
+    Dyad,
+    Polynomial,
+)
 from crankwork.mechanism.equal_parts import EqualPart
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
 from crankwork.mechanism.linkage import GROUND

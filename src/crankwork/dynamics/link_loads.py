@@ -1,20 +1,31 @@
-"""Wrenches on each link without its joints: loads, and the inertia of its bodies after D'Alembert."""
+"""A mechanism in operation, and wrenches on each link without its joints: loads, and inertia after D'Alembert."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import NamedTuple
 
-from crankwork.dynamics.operating_state import OperatingState
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import absent, is_traced, named
-from crankwork.kinematics.bodies import body_motions, sum_columns, zero_column
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.kinematic_coefficients import PointMotion
-from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied_loads import AppliedForce, AppliedLoads, AppliedTorque
+from crankwork.kinematics.motion import Motion, body_motions, sum_columns, zero_column
+from crankwork.loads.applied_loads import NO_LOADS, AppliedForce, AppliedLoads, AppliedTorque
+from crankwork.mechanism.mechanism import Mechanism
+
+
+@dataclass(frozen=True)
+class OperatingState:
+    """A mechanism in operation: links, motion, speed and loads."""
+
+    mechanism: Mechanism  # Links, joints and bodies
+    motion: Motion
+    speed: Value = 0.0  # Angular speed of the crank, shape (n,) [rad/s]
+    loads: AppliedLoads = NO_LOADS  # Forces and torques
+    angular_acceleration: Value = 0.0  # Angular acceleration of the crank, shape (n,) [rad/s2]
 
 
 class Wrench(NamedTuple):

@@ -11,9 +11,8 @@ import numpy as np
 from crankwork.dynamics.link_loads import Wrench, arm, moment_of
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import TracedValue, is_traced, named
-from crankwork.kinematics.bodies import zero_column
 from crankwork.kinematics.kinematic_coefficients import PointMotion
-from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion import Motion, zero_column
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
 
 

@@ -3,17 +3,58 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
-from crankwork.dynamics.link_loads import distinct
-from crankwork.dynamics.operating_state import OperatingState
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.dynamics.link_loads import OperatingState, distinct
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import named
-from crankwork.kinematics.bodies import body_motions, broadcast, sum_columns
+from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import is_zero
-from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion import Motion, body_motions, broadcast, sum_columns
 from crankwork.loads.applied_loads import AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
+
+Differences = Literal["forward", "central", "spectral"]
+
+
+@dataclass(frozen=True)
+class TabulatedBody:
+    """A body whose motion is a column of numbers."""
+
+    name: str
+    # Mass, and moment of inertia about the point whose speed is given [kg], [kg m2]
+    mass: float = 0.0
+    inertia: float = 0.0
+    # Speed of that point over the angular speed of the crank, one for each crank angle [m]
+    velocity_ratio: tuple[float, ...] = (0.0,)
+    rotation_ratio: tuple[float, ...] = (0.0,)  # Angular speed of the body over that of the crank [-]
+
+
+@formula("reduced_inertia", "artobolevsky_1988, ch. 15")
+def reduced_inertia_of_ratios(m_i: Value, v_w: Value, J_S: Value, w_w: Value) -> Value:
+    """Part of one body in the reduced moment of inertia, from its speeds over that of the crank."""
+    return m_i * v_w**2 + J_S * w_w**2
+
+
+def spectral_derivative(crank_angle: ArrayLike, values: ArrayLike) -> Array:
+    """Return the derivative by the crank angle of the trigonometric polynomial through a column of a revolution.
+
+    [kg m2] ValueError unless the crank angles are equidistant and there is one value for each. [rad]
+    """
+    angle, column = np.asarray(crank_angle, dtype=float), np.asarray(values, dtype=float)
+    step = np.diff(angle, append=angle[:1] + 2 * np.pi)
+    if angle.shape != column.shape or np.any(step <= 0):
+        raise ValueError("crank angles must ascend within one revolution, with one value each")
+    if np.ptp(step) > 1e-9:
+        raise ValueError("the spectral derivative needs equidistant crank angles over the whole revolution")
+    orders = np.fft.rfftfreq(column.size, 1 / column.size)
+    if column.size % 2 == 0:
+        orders[-1] = 0.0
+    return np.fft.irfft(1j * orders * np.fft.rfft(column), column.size)
 
 
 @formula("reduced_inertia", "artobolevsky_1988, ch. 15")

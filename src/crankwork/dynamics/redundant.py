@@ -9,7 +9,7 @@ import numpy as np
 
 from crankwork.dynamics.dyad_forces import force_along
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState
 from crankwork.dynamics.reaction import JointForces
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import given, is_traced, named

@@ -9,8 +9,7 @@ import numpy as np
 
 from crankwork.dynamics.force_system import numeric_loads, system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.link_loads import cross
-from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.link_loads import OperatingState, cross
 from crankwork.dynamics.reduction import crank_torque
 from crankwork.kinematics.crank_grid import Array
 

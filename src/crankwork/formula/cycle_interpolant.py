@@ -449,10 +449,8 @@ class CycleInterpolant:
         """Return the peak of each polynomial near a place from -1 to 1: Newton steps, kept where it rises to one."""
         first = _DERIVATIVE @ coefficients.T
         slopes, around = np.stack([first, _DERIVATIVE @ first], axis=1), np.arccos(-u)
-        low, high = (
-            -np.cos(np.maximum(around - _NODE_SPACING, 0.0)),
-            -np.cos(np.minimum(around + _NODE_SPACING, math.pi)),
-        )
+        low = -np.cos(np.maximum(around - _NODE_SPACING, 0.0))
+        high = -np.cos(np.minimum(around + _NODE_SPACING, math.pi))
         for _ in range(_STEPS if u.size else 0):
             slope, bend = legendre.legval(u, slopes, tensor=False)
             low, high = np.where(slope > 0, u, low), np.where(slope > 0, high, u)

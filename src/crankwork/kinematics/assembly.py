@@ -12,8 +12,7 @@ from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import Closure
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Chain, Dyad
 
 # square of the sine of the smallest angle between links at which transfer functions are still accurate
 _SINGULAR = 1e-13

@@ -19,8 +19,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import Closure, GroupMotion, LinkMotion, in_link_frame
 from crankwork.kinematics.loop_closure import ChainBoundary, LoopClosure, Positions, point_of, solve_positions
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.chain import Chain, ChainLink, Slide
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Chain, ChainLink, Dyad, Point, Slide
 
 _STEP = np.radians(6.0)
 _SMALLEST_STEP = 1e-4

@@ -32,9 +32,8 @@ from crankwork.kinematics.dyads import LinkMotion, fixed_point
 from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.kinematics.loop_closure import LoopClosure
 from crankwork.kinematics.position_analysis import Closures, Placed, assembled, place_at
-from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
-from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Chain, ChainLink, Gear, Guide, Point, Slide
 from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 
 _BRANCHES: tuple[Branch, Branch] = (1, -1)

@@ -22,9 +22,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import LinkMotion, rotated_frame
 from crankwork.kinematics.position_analysis import assembled, place
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.change_point import ChangePointFit, ChangePointPassage, Polynomial
-from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Chain, ChangePointFit, ChangePointPassage, Polynomial
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
 _DENSE = CrankGrid.steps(1.0, 360.0)

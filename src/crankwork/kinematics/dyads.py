@@ -19,8 +19,7 @@ from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, ab
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
-from crankwork.mechanism.change_point import ChangePointPassage
-from crankwork.mechanism.dyads import RRP, RRR, Guide, Point
+from crankwork.mechanism.dyads import RRP, RRR, ChangePointPassage, Guide, Point
 from crankwork.mechanism.mechanism import Crank
 
 _ZERO = np.array(0.0)

@@ -14,8 +14,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion, guide_on_link, in_link_frame, point_on_guide, point_on_link
 from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
-from crankwork.mechanism.dyads import Guide
+from crankwork.mechanism.dyads import Chain, ChainLink, Gear, Guide, Slide
 
 Positions = NDArray[np.intp]
 

@@ -47,10 +47,8 @@ from crankwork.kinematics.motion_laws import extent, law_at
 from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.chain import Chain, ChainLink
-from crankwork.mechanism.change_point import ChangePointPassage
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Chain, ChainLink, ChangePointPassage, Dyad, Guide
 from crankwork.mechanism.joints import group_links, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 

@@ -192,10 +192,8 @@ def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> GroupMotion:
     (p_t, p_n) and the angle gamma of the slot in the yoke. Both are linear in s and p.
     """
     (x, y), gamma = dyad.slot.point, dyad.slot.angle
-    cos, sin = (
-        named(plane.cosine_of_direction(gamma), f"line_cos.{dyad.block}"),
-        named(plane.sine_of_direction(gamma), f"line_sin.{dyad.block}"),
-    )
+    cos = named(plane.cosine_of_direction(gamma), f"line_cos.{dyad.block}")
+    sin = named(plane.sine_of_direction(gamma), f"line_sin.{dyad.block}")
     along, across = named_coordinates(in_link_frame(guide, joint), dyad.joint)
     block_slide = named_slide(Transfer((across[0] - y) / sin, across[1] / sin, across[2] / sin), dyad.block)
     slide = named_slide(

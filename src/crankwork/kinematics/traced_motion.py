@@ -18,9 +18,8 @@ from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.motion_laws import traced_law
 from crankwork.kinematics.plane_motion import cosine_of_direction, direction_of_slope, sine_of_direction
 from crankwork.kinematics.position_analysis import Placed, place_at
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Chain, Dyad, Guide, Point
 from crankwork.mechanism.equal_parts import EqualPart, without
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Body, Crank, Driver, LinkPoint, Mechanism

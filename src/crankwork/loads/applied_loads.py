@@ -9,10 +9,9 @@ from typing import Literal, NamedTuple
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import named
-from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.dyads import LinkMotion, point_of_link
 from crankwork.kinematics.kinematic_coefficients import PointMotion
-from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion import Motion, broadcast
 from crankwork.mechanism.joints import SlidingJoint, joints, links_of_points
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism

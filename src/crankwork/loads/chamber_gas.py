@@ -127,12 +127,10 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
         return NO_GAS
     full_cycle = least_common(cycle_of(chambers), period)
     spaces = _spaces(chambers, motion, pi, law, period)
-    pressures, works, own, all_notices = (
-        dict[str, TracedValue](),
-        dict[str, TracedValue](),
-        list[TracedValue](),
-        list[NoticeData](),
-    )
+    pressures = dict[str, TracedValue]()
+    works = dict[str, TracedValue]()
+    own = list[TracedValue]()
+    all_notices = list[NoticeData]()
     calculated = dict[str, CalculatedDiagram]()
     for name, charge in charges.items():
         pressure, values = _sealed(name, charge, chambers, spaces, period)

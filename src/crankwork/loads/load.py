@@ -24,10 +24,9 @@ from crankwork.formula.traced_value import (
     named,
     reached,
 )
-from crankwork.kinematics.bodies import broadcast, centre_of_mass
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.kinematic_coefficients import slider_velocity
-from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion import Motion, broadcast, centre_of_mass
 from crankwork.kinematics.traced_motion import angle_of, interpolant_of
 from crankwork.loads.applied_loads import (
     AppliedForce,

@@ -8,9 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from crankwork.errors import Problem
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.driver import Cylinder
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Branch, Dyad, Guide, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Branch, Chain, ChainLink, Dyad, Guide, Point, Slide
 from crankwork.mechanism.linkage import Linkage, Member
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
 from crankwork.mechanism.structure import known_points, structure
@@ -189,11 +188,9 @@ class _Order:
                     ends[end] = drawn_points[end]
                 elif len(drawn) == 2 and member is not cylinder:
                     (x, y), angle = drawn_points[drawn[0]], self._drawn_angle(name, drawn_points)
-                    (u, v), cos, sin = (
-                        _difference(member.points[drawn[0]], member.points[end]),
-                        math.cos(angle),
-                        math.sin(angle),
-                    )
+                    u, v = _difference(member.points[drawn[0]], member.points[end])
+                    cos = math.cos(angle)
+                    sin = math.sin(angle)
                     ends[end] = (x + u * cos - v * sin, y + u * sin + v * cos)
         return ends
 

@@ -1,4 +1,4 @@
-"""Assur groups of class II: the five dyads, each two links and three joints, and the guides they slide on.
+"""Assur groups: the five dyads, each two links and three joints, their guides, and chains, solved numerically.
 
 The frame of a link has its origin at the first joint and its x axis towards the second; that of a sliding piece has its
 origin at its pin (or on its guide) and its x axis along the guide. Points and guides on a link are given in its frame.
@@ -6,8 +6,112 @@ origin at its pin (or on its guide) and its x axis along the guide. Points and g
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """A quantity near a crank angle, by Chebyshev polynomials of the distance from it. [deg]"""
+
+    centre: float
+    reach: float  # Distance from the centre of the farthest fitted values
+    coefficients: tuple[float, ...]
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return the quantity at crank angles."""
+        return np.asarray(chebyshev.chebval((degrees - self.centre) / self.reach, self.coefficients))
+
+
+@dataclass(frozen=True)
+class ChangePointFit:
+    """Polynomials for a dyad near a change point, where its own formulas are 0/0."""
+
+    degrees: float  # Crank angle of the change point
+    width: float  # Half width of the range of the polynomials [deg]
+    columns: Mapping[str, Polynomial]  # By the quantity that they replace
+
+
+@dataclass(frozen=True)
+class ChangePointPassage:
+    """The change points of a dyad, at each of which it changes its branch."""
+
+    changes: tuple[float, ...]  # Crank angles at which its branch changes, ascending [deg]
+    stated: float  # Crank angle at which, or just after which, it is on its own branch [deg]
+    period: float = math.inf  # Crank angle after which everything repeats, if the crank turns fully [deg]
+    bridges: tuple[ChangePointFit, ...] = ()
+
+    def within(self, degrees: Array) -> Array:
+        """Return crank angles within the period."""
+        outside = (degrees < 0.0) | (degrees > self.period)
+        return np.where(outside, np.mod(degrees, self.period), degrees) if math.isfinite(self.period) else degrees
+
+    def signs(self, degrees: Array) -> Array:
+        """Return 1 where the dyad is on its own branch, -1 where it is on the other."""
+        passed = np.searchsorted(self.changes, self.within(degrees), side="left")
+        return np.where((passed - np.searchsorted(self.changes, self.stated, side="right")) % 2 == 0, 1.0, -1.0)
+
+    def is_bridged(self, degrees: Array) -> NDArray[np.bool_]:
+        """Return where polynomials are used (True)."""
+        inside, local = np.zeros(degrees.shape, dtype=bool), self.within(degrees)
+        for bridge in self.bridges:
+            inside |= np.abs(local - bridge.degrees) <= bridge.width
+        return inside
+
+
+@dataclass(frozen=True)
+class ChainLink:
+    """A moving link of a chain, and its position at the start."""
+
+    name: str  # Name of the link or sliding piece
+    origin: Point  # Origin of its frame at the start [m]
+    angle: float  # Direction of its x axis at the start, from the fixed x axis [rad]
+    points: Mapping[str, Point]  # Its joints and other named points, in its frame [m]
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A link of a chain whose x axis lies on a guide."""
+
+    link: str
+    guide: Guide
+
+
+@dataclass(frozen=True)
+class Gear:
+    """Two links on fixed axes that gears couple."""
+
+    link: str
+    other: str
+    ratio: float  # Angle of the first over that of the second [-]
+    start: float  # Angle of the first where that of the second is zero [rad]
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Links that have to be solved together.
+
+    Links that share the name of a point are pinned there; a point that no link of the chain owns alone is placed by the
+    crank or an earlier group.
+    """
+
+    links: tuple[ChainLink, ...]  # The moving links
+    # The sliding links with their guides: fixed, on a known link or on a link of the chain
+    slides: tuple[Slide, ...] = ()
+    known: frozenset[str] = field(default_factory=frozenset)  # Points that are placed before
+    start: float = 0.0  # Coordinate of the driver at the stated start [rad] or [m]
+    # Change of the driver's coordinate that moves links about as far as a radian; of a length, a length
+    radian: float = 1.0
+    gears: tuple[Gear, ...] = ()
+
 
 Point = tuple[float, float]
 Branch = Literal[-1, 1]

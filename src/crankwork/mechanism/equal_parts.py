@@ -7,8 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import Bar, Dyad, Guide
+from crankwork.mechanism.dyads import Bar, Chain, Dyad, Guide
 from crankwork.mechanism.joints import Joint, Pin, group_links, joints, links_of_points
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Body, Crank, LinkPoint, Mechanism

@@ -6,9 +6,8 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import DrivingSlider, LinkMotor
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Chain, Dyad
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Mechanism
 

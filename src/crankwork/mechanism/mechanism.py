@@ -12,9 +12,7 @@ from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, Ge
 from crankwork.mechanism.dyads import RRP
 
 if TYPE_CHECKING:
-    from crankwork.mechanism.chain import Chain
-    from crankwork.mechanism.change_point import ChangePointPassage
-    from crankwork.mechanism.dyads import Bar, Branch, Dyad, Point
+    from crankwork.mechanism.dyads import Bar, Branch, Chain, ChangePointPassage, Dyad, Point
 
 
 _TURN = 360.0

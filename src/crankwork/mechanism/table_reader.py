@@ -197,11 +197,9 @@ class _Reader:
         cranks, members = [], []
         for name, table in self._table("geared").items():
             key = f"geared.{name}"
-            pivot, ratio, angle = (
-                self._word(f"{key}.pivot", table["pivot"]),
-                table["ratio"],
-                table.get("pressure_angle"),
-            )
+            pivot = self._word(f"{key}.pivot", table["pivot"])
+            ratio = table["ratio"]
+            angle = table.get("pressure_angle")
             if pivot and pivot not in ground:
                 self._problem(f"{key}.pivot", ErrorMessage("pivot_unknown", name=pivot))
             if not ratio:

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from crankwork.analysis.constructions import Polytropes, polytropes
 from crankwork.analysis.input_loads import stated_chambers
-from crankwork.analysis.polytropes import Polytropes, polytropes
 from crankwork.analysis.prepared import Notice
 from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine
 from crankwork.formula.expression import Formula, Operation, Symbol, evaluate, symbol, text

@@ -9,8 +9,8 @@ from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.sampled_motion import transfer_ratios
 from crankwork.analysis.skeleton import skeleton
 from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
-from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, rod_name
+from crankwork.mechanism.dyads import Chain
 from crankwork.mechanism.joints import Pin, group_links, joints, pivots_of
 from crankwork.mechanism.linkage import GROUND
 from crankwork.note.captions import printed_unit

@@ -9,8 +9,7 @@ from functools import partial
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.sampled_cylinders import FORCES, engine_moving
-from crankwork.analysis.sampled_motion import AnimationPath, animation_path, sample_motion
+from crankwork.analysis.sampled_motion import FORCES, AnimationPath, animation_path, engine_moving, sample_motion
 from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.locale import ErrorMessage, capital, translate

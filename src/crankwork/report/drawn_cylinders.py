@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis import Array
-from crankwork.analysis.sampled_cylinders import SampledCylinder, SampledEngine
+from crankwork.analysis.sampled_motion import SampledCylinder, SampledEngine
 from crankwork.machine import Bearings, Machine
 from crankwork.report.drawn_links import hatched
 from crankwork.report.sketch import Sketch, forces_of, tints, with_forces

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array
-from crankwork.analysis.sampled_cylinders import SampledCylinder
+from crankwork.analysis.sampled_motion import SampledCylinder
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed
 from crankwork.show.animation import Part, part

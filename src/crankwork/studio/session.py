@@ -18,7 +18,7 @@ import numpy as np
 
 from crankwork import files
 from crankwork.analysis import Results, analyse
-from crankwork.analysis.full_turn import full_turn_bounds
+from crankwork.analysis.motion_range import full_turn_bounds
 from crankwork.description.document import Description, origins_of
 from crankwork.description.machine_file import template
 from crankwork.description.toml_edit import document

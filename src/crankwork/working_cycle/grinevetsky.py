@@ -17,18 +17,11 @@ from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, 
 from crankwork.kinematics.slider_crank import SliderCrank, mean_piston_speed, stroke_offset
 from crankwork.loads.gas import clearance_volume, compression_ratio, piston_area, swept_volume
 from crankwork.locale import ErrorMessage
-from crankwork.working_cycle import charge, engine_size
+from crankwork.working_cycle import charge, engine_size, heat_capacities
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners, Notice
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs, with_usual_values
 from crankwork.working_cycle.engine_size import effective_mean_pressure, mechanical_loss_pressure
 from crankwork.working_cycle.fuels import FUELS, CycleError, burning
-from crankwork.working_cycle.heat_capacities import (
-    as_counted,
-    fresh_heat,
-    mixture_heat,
-    product_coefficients,
-    residual_heat,
-)
 from crankwork.working_cycle.usual_ranges import cycle_notices, range_notices
 
 # inputs that are shown with the results
@@ -130,15 +123,15 @@ def _combustion(worked: Calculation, data: GrinevetskyData) -> None:
     celsius = law == "kolchin"
     worked(molar_change)
     worked(working_mixture_heat)
-    product_coefficients(worked, law)
+    heat_capacities.product_coefficients(worked, law)
     temperature = worked(charge.compression_celsius) if celsius else worked["compression_temperature"]
-    capacity = fresh_heat(worked, law, temperature)
+    capacity = heat_capacities.fresh_heat(worked, law, temperature)
     if law == "linear":
         # its fresh charge includes the residual gas
         worked.known["mixture_heat"] = capacity
     else:
-        residual_heat(worked, law, temperature)
-        worked(mixture_heat)
+        heat_capacities.residual_heat(worked, law, temperature)
+        worked(heat_capacities.mixture_heat)
     constant = {}
     if data.kind == "petrol":
         worked(isochoric_energy, th_gas=temperature)
@@ -500,12 +493,12 @@ def _exhaust(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate the heat of the exhaust gas."""
     law = data.heat_capacities
     hot, cold = (
-        as_counted(worked, law, worked[key], name)
+        heat_capacities.as_counted(worked, law, worked[key], name)
         for key, name in (("residual_temperature", "exhaust"), ("charge_temperature", "charge"))
     )
     heats = (
-        residual_heat(worked, law, hot, "product_heat.exhaust"),
-        fresh_heat(worked, law, cold, "fresh_charge_heat.charge"),
+        heat_capacities.residual_heat(worked, law, hot, "product_heat.exhaust"),
+        heat_capacities.fresh_heat(worked, law, cold, "fresh_charge_heat.charge"),
     )
     exhaust, fresh = (
         worked(engine_size.molar_enthalpy, f"molar_enthalpy.{name}", mc_gas=heat, th_gas=temperature)
