@@ -189,13 +189,6 @@ def test_the_workbook_holds_givens_checks_charts_and_the_same_numbers_as_the_tab
     assert 'formatCode="0.0000"' in files["xl/styles.xml"]
 
 
-def test_the_explanation_in_the_readme_is_the_one_that_is_given(crankwork) -> None:
-    command = ("explain", "examples/spark-engine.toml", "side_force", "--at", "390")
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert f"`crankwork {' '.join(command)}`" in readme
-    assert f"```\n{crankwork(command[0], str(ROOT / command[1]), *command[2:]).out}```" in readme
-
-
 def test_three_lines_of_python_give_the_results() -> None:
     import crankwork
 
