@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from crankwork.study.spread import Spreads, spread
     from crankwork.study.variants import Swept, sweep
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # Where each name lives; it is imported when first used, so that the command line starts fast.
 _HOMES = {

@@ -188,19 +188,6 @@ def test_commands_speak_the_language_of_the_system(crankwork, machine_file, monk
     assert ("проверьте" in refused) == (words == "ход поршня")
 
 
-@pytest.mark.parametrize("language", ["ru", "vi"])
-def test_the_short_introductions_show_files_and_commands_that_work(crankwork, tmp_path, language) -> None:
-    text = (EXAMPLES.parent / f"docs/README.{language}.md").read_text("utf-8")
-    (sample,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
-    (tmp_path / "my.toml").write_text(sample, encoding="utf-8")
-    assert crankwork("check", "my.toml", "--lang", language).code == 0
-    shown = re.findall(r"^\.venv/bin/crankwork (\w+) (\S+)", text, re.MULTILINE)
-    assert shown
-    for command, file in shown:
-        options = set(re.findall(rf"crankwork {command} .*?(--[a-z]+)", text))
-        assert options <= set(re.findall(r"--[a-z-]+", crankwork(command, "--help").out)), (command, file)
-
-
 def test_decimal_commas_and_letters_that_need_quotes_are_told_with_the_fix(crankwork, tmp_path) -> None:
     fixes = {
         "ratio = 0,25": "0.25", "ratio = 0,25  # r/l": "0.25", "small_end = { share = 0,5 }": "0.5",

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Literal, TextIO
 
 import click
 
+from crankwork import __version__
 from crankwork.cli.options import (
     COMPARE,
     FIGURES,
@@ -174,7 +175,7 @@ def _unknown(error: click.NoSuchOption | click.exceptions.NoSuchCommand) -> str:
 
 
 @click.group(cls=LocalizedGroup, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(package_name="crankwork", message="crankwork %(version)s")
+@click.version_option(__version__, message="crankwork %(version)s")
 def commands() -> None:
     """Kinematics and dynamics of crank-driven machines, from one text file."""
 

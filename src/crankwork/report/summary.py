@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from crankwork import __version__
 from crankwork.analysis import Results
 from crankwork.analysis.assembly_modes import MOST_SIGNED, AssemblyMode, AssemblyModes
 from crankwork.analysis.rounding_noise import summary_without_rounding
@@ -35,11 +36,9 @@ if TYPE_CHECKING:
 
 def provenance_data(results: Results) -> dict[str, str]:
     """Return the provenance of an export: program, file, method."""
-    from importlib.metadata import version  # noqa: PLC0415 - slow to load, and what the screen shows has no need of it
-
     return {
         "title": results.machine.title,
-        "source": f"crankwork {version('crankwork')}",
+        "source": f"crankwork {__version__}",
         "method": results.method.name,
         "machine_file_sha256": results.machine.digest,
     }
