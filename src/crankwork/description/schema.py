@@ -25,11 +25,14 @@ from crankwork.description.value_types import (
     look_alikes,
     shown,
 )
+from crankwork.errors import Problem
 from crankwork.locale import ErrorMessage, Language, texts, translate
 from crankwork.mechanism.linkage import LengthInertia
 
 _MAX_ENTRIES = 10_000
 _LONGEST_NAME = 60
+# a power, torque or mean pressure at the shaft, as many books and as keys call it
+_SAME_WORDS = ("brake", "effective")
 
 
 class ListOf(NamedTuple):
@@ -313,6 +316,7 @@ class TableSpec(NamedTuple):
                 self._report_unknown(name, item, path, reader)
                 continue
             result[name] = self.keys[name].kind.read(item, path, reader)
+            self._tell_key_of_unit(name, path, reader)
             clashes = [other for other in self.keys[name].instead_of if other in value]
             later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
             if later or any(name not in self.keys[other].instead_of for other in clashes):
@@ -327,6 +331,19 @@ class TableSpec(NamedTuple):
             elif entry.required is True or (entry.required and values["kind"] in entry.required):
                 self._check_there(name, value, values, prefix, reader)
         return values
+
+    def _tell_key_of_unit(self, name: str, path: str, reader: Reader) -> None:
+        """Name the key that takes a unit which this key does not, if it tells another size of the same thing."""
+        problem = reader.problems[-1] if reader.problems else None
+        message = problem.message if problem is not None and problem.key == path else None
+        measured = message.values.get("measured") if isinstance(message, ErrorMessage) else None
+        if not isinstance(message, ErrorMessage) or not isinstance(measured, ErrorMessage):
+            return
+        dimension, subject = measured.name.removeprefix("dimension_"), name.partition("_")[0]
+        for other, entry in self.keys.items():
+            of_unit = isinstance(entry.kind, Quantity) and dimension in entry.kind.dimensions
+            if of_unit and other.partition("_")[0] == subject:
+                reader.problems[-1] = Problem(path, ErrorMessage("unit_of_key", nearest=other, **message.values))
 
     def default(self, name: str, values: Values) -> Any:  # noqa: ANN401 - each kind has its own type
         """Return the default of a key, given the other values of its table, or None."""
@@ -383,7 +400,8 @@ class TableSpec(NamedTuple):
             meant = f"{path.removesuffix(name)}{latin}"
             reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=meant)
             return
-        nearest = nearest_name(name, tuple(self.keys))
+        nearest = name.replace(*_SAME_WORDS)
+        nearest = nearest if nearest in self.keys else nearest_name(name, tuple(self.keys))
         if nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
             reader.add_error(path, ErrorMessage(f"unknown_{what}_near", nearest=nearest), meant=meant)
