@@ -176,9 +176,9 @@ def _without_strangers(values: dict[str, Any], keys: TableSpec, reader: Reader) 
     kept = dict(values)
     for name in [name for name, value in values.items() if isinstance(value, dict) and name not in keys.keys]:
         kinds = [kind for kind in FILES if name in kind.keys]
-        others = min(([item for item in values if item not in kind.keys] for kind in kinds), key=len, default=[])
-        if others := [item for item in others if item in keys.keys]:
-            reader.add_error(name, ErrorMessage("table_apart", others=[f"[{item}]" for item in others]))
+        excluding = min(([item for item in values if item not in kind.keys] for kind in kinds), key=len, default=[])
+        if excluding := [item for item in excluding if item in keys.keys]:
+            reader.add_error(name, ErrorMessage("table_apart", others=[f"[{item}]" for item in excluding]))
             del kept[name]
             for absent in keys.keys.keys() - values.keys():
                 reader.suspect(absent)

@@ -31,8 +31,6 @@ from crankwork.mechanism.linkage import LengthInertia
 
 _MAX_ENTRIES = 10_000
 _LONGEST_NAME = 60
-# a power, torque or mean pressure at the shaft, as many books and as keys call it
-_SAME_WORDS = ("brake", "effective")
 
 
 class ListOf(NamedTuple):
@@ -316,7 +314,7 @@ class TableSpec(NamedTuple):
                 self._report_unknown(name, item, path, reader)
                 continue
             result[name] = self.keys[name].kind.read(item, path, reader)
-            self._tell_key_of_unit(name, path, reader)
+            self._suggest_key(name, path, reader)
             clashes = [other for other in self.keys[name].instead_of if other in value]
             later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
             if later or any(name not in self.keys[other].instead_of for other in clashes):
@@ -332,7 +330,7 @@ class TableSpec(NamedTuple):
                 self._check_there(name, value, values, prefix, reader)
         return values
 
-    def _tell_key_of_unit(self, name: str, path: str, reader: Reader) -> None:
+    def _suggest_key(self, name: str, path: str, reader: Reader) -> None:
         """Name the key that takes a unit which this key does not, if it tells another size of the same thing."""
         problem = reader.problems[-1] if reader.problems else None
         message = problem.message if problem is not None and problem.key == path else None
@@ -400,7 +398,8 @@ class TableSpec(NamedTuple):
             meant = f"{path.removesuffix(name)}{latin}"
             reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=meant)
             return
-        nearest = name.replace(*_SAME_WORDS)
+        # many books call a power, torque or mean pressure at the shaft that of the brake
+        nearest = name.replace("brake", "effective")
         nearest = nearest if nearest in self.keys else nearest_name(name, tuple(self.keys))
         if nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
