@@ -116,6 +116,14 @@ def test_uneven_intervals_permitted_for_nothing_and_numbers_of_banks_with_one_cy
     assert (told["engine.numbering"], told.get("engine.uneven")) == ("one_a_bank", None)
 
 
+def test_uneven_intervals_of_a_pair_in_which_nothing_burns_are_told_as_free():
+    description = Description(template("slider-crank"))
+    description.replace({"engine.layout": "V", "engine.cylinders": 2, "engine.bank_angle": "60 deg"})
+    assert [item.code for item in analyse(description).notices] == []
+    description["engine.uneven"] = True
+    assert [item.code for item in analyse(description).notices] == ["uneven_pair"]
+
+
 def test_uneven_intervals_are_told_by_the_dead_centres_of_offset_cylinders():
     description = Description(FILES["narrow-v6"])
     assert "engine.uneven" not in idle(analyse(description))

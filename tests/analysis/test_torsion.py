@@ -147,12 +147,33 @@ def test_dampers_have_the_peaks_of_den_hartog():
     assert all(one_disc(untuned, ratio)["vibration_amplitude.wheel"] < peak for ratio in (0.8, 0.9, 0.97, 1.05))
     spring = one_disc('damping = "1 N*m*s/rad", stiffness = "3 kN*m/rad"', 0.5)
     assert spring["optimum_stiffness.ring"] == pytest.approx(0.5 * (100 / 1.25) ** 2, rel=1e-12)
+    assert spring["least_magnification.ring"] == pytest.approx(3.0, rel=1e-12)
+    assert spring["optimum_damping.ring"] == pytest.approx(2 * 0.5 * 100 * math.sqrt(0.75 / 15.625), rel=1e-12)
     tuned = f'damping = "{spring["optimum_damping.ring"]!r} N*m*s/rad", stiffness = "3200 N*m/rad"'
     # both fixed points, which no damping moves
     inside = math.sqrt(mu / (2 + mu))
     for square in ((1 - inside) / (1 + mu), (1 + inside) / (1 + mu)):
         height = one_disc(tuned, math.sqrt(square))["vibration_amplitude.wheel"]
         assert height == pytest.approx(still * math.sqrt(1 + 2 / mu), rel=1e-9)
+
+
+def test_the_stress_of_a_hollow_shaft_is_that_of_the_twist_of_a_single_disc():
+    """At half of its frequency the disc swings by 20 / (20000 - 2 * 50^2) rad."""
+    results = analysed("""
+        [torsion]
+        discs.wheel.inertia = "2 kg*m2"
+        torques = [{ disc = "wheel", torque = "20 N*m", frequency = "50 rad/s" }]
+        [torsion.shafts.rod]
+        between = ["ground", "wheel"]
+        stiffness = "20 kN*m/rad"
+        diameter = "30 mm"
+        bore = "20 mm"
+    """)
+    torque = 20e3 * 20 / (20e3 - 2 * 50**2)
+    assert results["vibration_torque.rod"] == pytest.approx(torque, rel=1e-12)
+    assert results["vibration_stress.rod"] == pytest.approx(
+        16 * torque * 0.03 / (math.pi * (0.03**4 - 0.02**4)), rel=1e-12
+    )
 
 
 def test_free_vibration_with_damping_is_that_of_a_torsional_pendulum():

@@ -58,6 +58,8 @@ class Map(NamedTuple):
         around = [(size, at) for size, at in in_file if self.blocks[at][1] <= fault.line <= self.blocks[at][2]]
         numbers = [min(around)[1]] if around else [at for _, at in in_file]
         found = {name for at in numbers for name in self.tests.get(at, ())}
+        if not found:  # executed before a test begins, or by none
+            found = {name for _, at in in_file for name in self.tests.get(at, ())}
         if not around:
             # who looks through tables and formulas calls none of them
             found |= {name for name in self.seconds if name.startswith("tests/architecture/")}

@@ -89,6 +89,13 @@ class Recorder:
         functools.lru_cache = cached  # type: ignore[assignment]
         functools.cache = cached(None)  # type: ignore[assignment]
 
+    def pytest_collection_finish(self) -> None:
+        """Let every formula be read before a test begins: who first asks what it is would count as its caller."""
+        from rules import every_formula
+
+        for formula in every_formula().values():
+            _ = formula.arguments, formula.is_root
+
     @pytest.hookimpl(wrapper=True)
     def pytest_fixture_setup(self, fixturedef: Any) -> Generator[None, Any, Any]:
         """Keep what a fixture executes."""

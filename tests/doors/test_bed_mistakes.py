@@ -65,6 +65,10 @@ def of_file(text: str) -> crankwork.Results:
         (ALONE, f'air_rate = "2 kg/h"; {ORIFICE}', "test.air_rate: says the same as test.orifice_diameter"),
         (ALONE, 'indicated_mean_pressure = "5 bar"; working_cycle_rate = "500 rpm"',
          "test.working_cycle_rate: says the same as crank.speed; keep"),
+        # words and units of another key
+        (ALONE, 'brake_power = "5 kW"', "test.brake_power: unknown key; did you mean effective_power?"),
+        (ALONE, 'fuel_flow = "2 kg/h"', 'test.fuel_flow: unit "kg/h" measures mass rate: write it as fuel_rate; here'),
+        (ALONE, 'card_area = "5 mm"', 'test.card_area: unit "mm" measures length: write it as card_length; here'),
         # what nothing follows from
         (ALONE, "", "test: nothing follows from what is stated"),
         (ALONE, 'brake_load = "1500 N"', "test.brake_load: says nothing without test.brake_arm; add"),

@@ -74,3 +74,17 @@ def test_a_mistake_is_told(text: str, key: str, words: str) -> None:
 def test_a_vessel_of_gas_is_refused() -> None:
     text = changed("double-acting-steam", "[flywheel]", '[vessels.air]\nchambers = ["head"]\n\n[flywheel]')
     assert "density" in mistakes(text)["vessels.air.chambers[1]"]
+
+
+@for_each(
+    ("text", "key", "others"),
+    [
+        (f'{STAGES}flow = "3 m3/min"\n[cylinder]\nbore = "80 mm"', "stages", "[cylinder]"),
+        ('torque.constant = "5 N*m"\n[crank]\nspeed = "20 rpm"\n[rod]\nlength = "1 m"', "rod", "[torque]"),
+    ],
+)
+def test_a_table_of_another_kind_of_file_is_told_with_those_that_exclude_it(text: str, key: str, others: str) -> None:
+    """And no table counts as missing."""
+    told = mistakes(text)
+    assert told.pop(key) == f"belongs to another kind of file than {others}; keep one of them"
+    assert told.keys() <= {"crank.radius"}

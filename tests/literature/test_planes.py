@@ -263,6 +263,27 @@ def test_coupled_axles_share_the_reciprocating_part() -> None:
     assert coupled["tractive_effort_variation"] == pytest.approx(alone["tractive_effort_variation"], rel=1e-12)
 
 
+def test_forces_along_and_across_the_rails() -> None:
+    """Of cranks at right angles: what is not balanced of the pistons along, what is balanced of them across."""
+    results = analysed(_locomotive(0.6, "160 kg", "180 kg", 0.7, "300 rpm", "0.6 m|"))
+    degrees = np.array([0.0, 25.0, 110.0, 200.0, 305.0])
+    one, (sin, cos) = 180 * 0.3 * (10 * math.pi) ** 2, (np.sin(np.radians(degrees)), np.cos(np.radians(degrees)))
+    columns = results.columns_at(degrees, ["unbalanced_force_along", "unbalanced_force_across"])
+    assert columns["unbalanced_force_along"] == pytest.approx(0.4 * one * (cos - sin), rel=1e-12, abs=1e-9 * one)
+    assert columns["unbalanced_force_across"] == pytest.approx(-0.6 * one * (sin + cos), rel=1e-12, abs=1e-9 * one)
+
+
+def test_a_sector_has_the_moment_of_its_strips() -> None:
+    """Of 110 degrees between 40 and 90 mm, two of 30 mm, summed strip by strip."""
+    sector = 'sector = { inner_radius = "40 mm", outer_radius = "90 mm", width = "30 mm", angle = "110 deg", '
+    masses = f'{{ name = "webs", {sector} density = "7800 kg/m3", count = 2 }}, angle = "180 deg" }}'
+    results = analysed(_rotor(masses, _mass("B", radius="50 mm")))
+    radius = 0.04 + 0.05 * (np.arange(20_000) + 0.5) / 20_000
+    strips = 2 * 7800 * 0.03 * np.sum(radius**2) * 0.05 / 20_000 * 2 * math.sin(55 * DEGREE)
+    assert results["plane_moment.B"] == pytest.approx(strips, rel=1e-8)
+    assert results["plane_mass.B"] == pytest.approx(strips / 0.05, rel=1e-8)
+
+
 def test_three_cranks_leave_a_swaying_couple_alone() -> None:
     """Three cylinders at 120 degrees leave no force along the rails."""
     crank = {"mass": "100 kg", "reciprocating": "200 kg", "radius": "0.3 m"}

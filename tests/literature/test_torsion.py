@@ -119,6 +119,8 @@ CASES = {
     "bevan 15.11 with": Case(GEARED % ("54", "850"), {
         "natural_frequency.1": (83.4143690933 * HERTZ * BEVAN, 1e-9),
         "natural_frequency.2": (346.065440008 * HERTZ * BEVAN, 1e-9),
+        # of the rotor behind the gears, 50000 lb in2 at 0.6 of the speed
+        "equivalent_inertia.D": (18000 * 0.45359237 * 0.0254**2, 1e-12),
         # from rotor A, printed 3.661 in
         "node_distance.2.motor": (3.661 * 0.0254, 3e-3),
     }),

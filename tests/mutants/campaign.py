@@ -96,9 +96,10 @@ def tried(mutant: Any, witnesses: Sequence[Witness]) -> Verdict:
 
 
 def forget() -> None:
-    """Empty what tests keep of machines that they have computed."""
+    """Empty what tests and the source keep of machines that they have computed."""
     for name, module in [*sys.modules.items()]:
-        if name.startswith("test_") or Path(getattr(module, "__file__", None) or "").is_relative_to(ROOT / "tests"):
+        folder = Path(getattr(module, "__file__", None) or "")
+        if name.startswith("test_") or folder.is_relative_to(ROOT / "tests") or folder.is_relative_to(SOURCE):
             for kept in [*vars(module).values()]:
                 if isinstance(kept, functools._lru_cache_wrapper):
                     kept.cache_clear()
@@ -178,7 +179,9 @@ class Campaign:
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Run the campaign instead of the tests."""
         # also of modules that only a test imports while it runs
-        every_formula()
+        for formula in every_formula().values():
+            # kept by the formula, and never what a mutant would be
+            _ = formula.is_root
         witnesses = {one.name: one for one in witnesses_of(session)}
         known = recorded(self.arguments.executed.resolve(), witnesses)
         calling = {name: [one for one in tests if one in witnesses] for name, tests in calls(known).items()}

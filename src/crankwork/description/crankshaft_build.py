@@ -50,6 +50,8 @@ def build_engine(
     try:
         burns = "cycle" in values or ("gas" in values and "valves" not in values["gas"] and cycle > 360.0)
         layout, notices = _layout(table, round(cycle / 180), _tops(table, lengths), burns=burns)
+        if table["uneven"] and _is_free_pair(table, round(cycle / 180), burns=burns):
+            notices = (*notices, LayoutNotice("uneven_pair", {}))
     except LayoutError as error:
         reader.add_error(error.key, error.args[0])
         return None
@@ -98,7 +100,7 @@ def _layout(
     throws = table.degrees("throws") if "throws" in table else None
     usual = _usual(table, strokes)
     order = [int(number) for number in table["firing_order"] if number]
-    is_pair = usual is None and cylinders == 2 and not burns
+    is_pair = _is_free_pair(table, strokes, burns=burns)
     order = order or [1, 2] * is_pair
     if not order and kind != "radial":
         if usual is None:
@@ -141,6 +143,11 @@ def _no_order(table: Values, strokes: int) -> ErrorMessage:
         if order.axes == (-half, half) and order.pin_offset:
             return ErrorMessage("order_unusual_near", **requested, pin_offset=f"{order.pin_offset:g}")
     return ErrorMessage("order_unusual", **requested)
+
+
+def _is_free_pair(table: Values, strokes: int, *, burns: bool) -> bool:
+    """Return whether the intervals of two cylinders are free: nothing burns, and no customary engine has them."""
+    return int(table["cylinders"]) == 2 and not burns and _usual(table, strokes) is None
 
 
 def _usual(table: Values, strokes: int) -> StandardOrder | None:

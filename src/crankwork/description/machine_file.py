@@ -155,6 +155,7 @@ def _build(values: dict[str, Any], reader: Reader) -> Machine | None:
         reader.add_error("format", ErrorMessage("format_unknown", newest=str(FORMATS[-1])))
         return None
     keys, values = file_keys(values), with_first_sizes(values, reader)
+    values = _without_strangers(values, keys, reader)
     read_values = keys.read(resolve_file_columns(values, keys, reader), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader)
     weighs = any(code == "weight" for code, _ in reader.notices)
@@ -175,6 +176,23 @@ def _build(values: dict[str, Any], reader: Reader) -> Machine | None:
     if machine is None:
         return None
     return replace(machine, document=stated_document(read_values), inputs=functools.partial(_inputs, values))
+
+
+def _without_strangers(values: dict[str, Any], keys: TableSpec, reader: Reader) -> dict[str, Any]:
+    """Return the values of a file without the tables of other kinds of files; report them with those that exclude them.
+
+    A table that is missing then is not reported: it may be the other one that is meant.
+    """
+    kept = dict(values)
+    for name in [name for name, value in values.items() if isinstance(value, dict) and name not in keys.keys]:
+        kinds = [kind for kind in FILES if name in kind.keys]
+        excluding = min(([item for item in values if item not in kind.keys] for kind in kinds), key=len, default=[])
+        if excluding := [item for item in excluding if item in keys.keys]:
+            reader.add_error(name, ErrorMessage("table_apart", others=[f"[{item}]" for item in excluding]))
+            del kept[name]
+            for absent in keys.keys.keys() - values.keys():
+                reader.suspect(absent)
+    return kept
 
 
 def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:

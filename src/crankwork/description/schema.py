@@ -25,6 +25,7 @@ from crankwork.description.value_types import (
     look_alikes,
     shown,
 )
+from crankwork.errors import Problem
 from crankwork.locale import ErrorMessage, Language, has_text, texts, translate
 from crankwork.machine import FileInput, FileInputs, InputNumber
 from crankwork.mechanism.linkage import LengthInertia
@@ -315,6 +316,7 @@ class TableSpec(NamedTuple):
                 self._report_unknown(name, item, path, reader)
                 continue
             result[name] = self.keys[name].kind.read(item, path, reader)
+            self._suggest_key(name, path, reader)
             clashes = [other for other in self.keys[name].instead_of if other in value]
             later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
             if later or any(name not in self.keys[other].instead_of for other in clashes):
@@ -329,6 +331,19 @@ class TableSpec(NamedTuple):
             elif entry.required is True or (entry.required and values["kind"] in entry.required):
                 self._check_there(name, value, values, prefix, reader)
         return values
+
+    def _suggest_key(self, name: str, path: str, reader: Reader) -> None:
+        """Name the key that takes a unit which this key does not, if it tells another size of the same thing."""
+        problem = reader.problems[-1] if reader.problems else None
+        message = problem.message if problem is not None and problem.key == path else None
+        measured = message.values.get("measured") if isinstance(message, ErrorMessage) else None
+        if not isinstance(message, ErrorMessage) or not isinstance(measured, ErrorMessage):
+            return
+        dimension, subject = measured.name.removeprefix("dimension_"), name.partition("_")[0]
+        for other, entry in self.keys.items():
+            of_unit = isinstance(entry.kind, Quantity) and dimension in entry.kind.dimensions
+            if of_unit and other.partition("_")[0] == subject:
+                reader.problems[-1] = Problem(path, ErrorMessage("unit_of_key", nearest=other, **message.values))
 
     def default(self, name: str, values: Values) -> Any:  # noqa: ANN401 - each kind has its own type
         """Return the default of a key, given the other values of its table, or None."""
@@ -385,7 +400,9 @@ class TableSpec(NamedTuple):
             meant = f"{path.removesuffix(name)}{latin}"
             reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=meant)
             return
-        nearest = nearest_name(name, tuple(self.keys))
+        # many books call a power, torque or mean pressure at the shaft that of the brake
+        nearest = name.replace("brake", "effective")
+        nearest = nearest if nearest in self.keys else nearest_name(name, tuple(self.keys))
         if nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
             reader.add_error(path, ErrorMessage(f"unknown_{what}_near", nearest=nearest), meant=meant)
