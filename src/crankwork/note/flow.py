@@ -10,19 +10,32 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.note.document import Block, Contents, Figure, Heading, ItemList, PageBreak, Paragraph, Table, TitlePage
+from crankwork.note.document import (
+    Block,
+    Contents,
+    Equation,
+    Figure,
+    Heading,
+    ItemList,
+    PageBreak,
+    Paragraph,
+    Table,
+    TitlePage,
+)
 
 # of a page: height of its text, what may stay empty within a section, and where text would fill it [pt]
 PAGE, _LITTLE, _EMPTY = 728.0, 60.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
-# rows of a table that stays on one page with its caption
-TOGETHER = 20
+# rows of a table that stays on one page with its caption, and the list of symbols, which may be divided anywhere
+TOGETHER, _DIVIDED = 20, "t:nomenclature"
 
 
 def is_whole(block: Block) -> bool:
     """Return whether a block stands on one page, and may wait for it."""
-    return isinstance(block, Figure) or (isinstance(block, Table) and not block.wide and len(block.rows) <= TOGETHER)
+    if isinstance(block, Table):
+        return not block.wide and len(block.rows) <= TOGETHER and block.label != _DIVIDED
+    return isinstance(block, Figure)
 
 
 def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Iterator[int]:
@@ -41,7 +54,10 @@ def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Itera
         most = PAGE if is_new or (isinstance(block, Heading) and block.level == 1) else _LITTLE
         # what waits does not stand between a heading and its text
         while waiting and (not is_heading or waiting == [k]):
-            place = next((place for place in _ready(waiting, blocks) if _fits_here(filled, heights[place], most)), None)
+            # no derivation is divided by what it does not need
+            inside = k and isinstance(block, Equation) and isinstance(blocks[k - 1], Equation)
+            ready = () if inside else _ready(waiting, blocks)
+            place = next((place for place in ready if _fits_here(filled, heights[place], most)), None)
             if place is None and (waited <= _LONG or _left(filled, heights[waiting[0]]).mean() > _EMPTY):
                 break
             place = waiting[0] if place is None else place

@@ -14,6 +14,7 @@ from crankwork.note.document import Block, Bold, Citation, Math, Paragraph
 from crankwork.note.lines import WHEEL_SIZES
 from crankwork.note.material import Material
 from crankwork.note.parts import (
+    At,
     Head,
     Lines,
     Listed,
@@ -169,7 +170,10 @@ SECTIONS = (
         Head("evenness"), When(every(_OF_ENERGY, lacks(_IS_EXACT)), (Text("evenness_of_all"),)),
         When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact", {"work": _exact_work}),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), When(either(full, lacks(_IS_EXACT)), (Lines("uniformity"),)),
-        When(_IS_EXACT, _FOUND),
+        When(_IS_EXACT, (
+            At("reduction"), Lines("reduction", ("reduced_inertia",)),
+            Lines("engine_torque", ("total_reduced_inertia",)), *_FOUND,
+        )),
         _over_cycle,
         When(every(full, ONE), HARMONICS),
     ), has("piston_displacement", "excess_work")),

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from crankwork.analysis import Array
 from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.note.document import Block, Citation, Equation, Math, Run
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Lines, Section, Shown, Text, When, has, lacks
-from crankwork.note.tables import Column, quantity_columns
+from crankwork.note.tables import Column, quantity_column
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, link_label
+from crankwork.report.torsion import MODES
 
 _HOLZER, _ORDERS = "holzer_1921", "den_hartog_1956, ch. 5"
 # rows of critical speeds, and of tables by Holzer
 _MOST_CRITICAL, _MOST_ROWS = 12, 40
+_FREQUENCIES = ("natural_frequency", "damped_frequency", "angular_frequency")
+# least number that has four digits without decimals, and decimals at most
+_FOUR_DIGITS, _DECIMALS = 1000.0, 2
 
 
 _EQUATION = ("(", Math("K"), " − ", Math("ω"), "² ", Math("J"), ") ", Math("Θ"), " = 0")
@@ -39,11 +45,13 @@ class _Listing:
         if self.name == "holzer" and not material.full:
             rows = rows[listing.columns["angular_frequency"] == listing.columns["angular_frequency"][0]]
         rows = rows[:_MOST_ROWS]
-        columns = {key: values[rows] for key, values in listing.columns.items()}
+        # the caption says at which frequency
+        columns = {key: values[rows] for key, values in listing.columns.items()
+                   if material.full or (self.name, key) != ("holzer", "angular_frequency")}  # fmt: skip
         made = [
             column._replace(heading=(link_label(key_of(key).owner, words.language),))
             if key.startswith("relative_amplitude.") else column
-            for key, column in zip(columns, quantity_columns(material, columns, columns), strict=True)
+            for key, column in zip(columns, _columns(material, columns), strict=True)
         ]  # fmt: skip
         if listing.names:
             made.insert(0, Column((words.column("row"),), [_called(listing.names[row], material) for row in rows]))
@@ -51,6 +59,15 @@ class _Listing:
         align = "l" * bool(listing.names) + "r" * len(columns)
         caption = "holzer_first" if self.name == "holzer" and not material.full else self.name
         yield words.table(caption, [column.heading for column in made], cells, align, self.name)
+
+
+def _columns(material: Material, columns: Mapping[str, Array]) -> Iterator[Column]:
+    """Yield columns of quantities; of frequencies the lowest, which matters most, has its digits too."""
+    for key, values in columns.items():
+        lowest = float(np.min(np.abs(material.shown(key, values)), initial=np.inf))
+        is_spread = key_of(key).quantity in _FREQUENCIES and 0.0 < lowest < _FOUR_DIGITS
+        decimals = min(_DECIMALS, 3 - math.floor(math.log10(lowest))) if is_spread else None
+        yield quantity_column(material, key, values, decimals=decimals)
 
 
 def _called(name: str, material: Material) -> str:
@@ -76,12 +93,15 @@ def _nodes(material: Material) -> Iterator[Block]:
     if listing is None or model is None:
         return
     shapes, places, shares = results.listings["natural_modes"].columns, list[str](), list[str]()
-    for mode, name in zip(listing.columns["mode_number"].astype(int), listing.names, strict=True):
+    modes = listing.columns["mode_number"].astype(int)
+    # those of the modes that are drawn
+    rows = np.flatnonzero(material.full | (modes <= MODES))
+    for mode, name in ((int(modes[row]), listing.names[row]) for row in rows):
         ends = model.shafts[name].between if name in model.shafts else (name,)
         a, *b = (float(shapes[f"relative_amplitude.{end}"][mode - 1]) for end in ends)
         places.append(" – ".join(link_label(end, words.language) for end in ends))
         shares.append(words.number(100 * a / (a - b[0]), digits=3) if b else "–")
-    number, *distances = quantity_columns(material, listing.columns, listing.columns)
+    number, *distances = (quantity_column(material, key, values[rows]) for key, values in listing.columns.items())
     made = [number, Column((words.column("row"),), places), Column((words.column("share"),), shares), *distances]
     cells = list(zip(*(column.entries for column in made), strict=True))
     yield words.paragraph("torsion_nodes")

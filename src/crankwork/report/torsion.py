@@ -16,7 +16,7 @@ from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, name
 from crankwork.show.chart_layout import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID, STYLES, Drawing
 
-_MODES, _PANEL, _GAP = 4, 92.0, 22.0
+MODES, _PANEL, _GAP = 4, 92.0, 22.0
 # curves of a panel at most
 _CURVES = 4
 _NODE = 1e-9
@@ -28,7 +28,7 @@ def natural_modes(machine: Drawn) -> Drawing:
     columns, model = results.listings["natural_modes"].columns, results.machine.torsion
     names = [key_of(key).owner for key in columns if key.startswith("relative_amplitude.")]
     frequency = displayed_values(QUANTITIES["natural_frequency"], columns["natural_frequency"])
-    count, high = min(_MODES, frequency.size), scaled_height(_PANEL)
+    count, high = min(MODES, frequency.size), scaled_height(_PANEL)
     paper = Canvas(current_layout().width, TOP + count * (high + _GAP) + BOTTOM - _GAP)
     place = {name: float(index) for index, name in enumerate(names)}
     links = []
