@@ -54,7 +54,8 @@ _OF_LINKAGES = frozenset((
 _DIGITS, _ROUNDING = 3, 1e-9
 # in their order; of what links, joints and cylinders have the largest is before
 _NUMBERS = (
-    "effective_power", "indicated_power", "motor_power", "shaft_power", "stage_power", "stage_saving", "mean_flow",
+    "effective_power", "indicated_power", "motor_power", "shaft_power", "stage_power", "stage_saving",
+    "overall_isothermal_efficiency", "heat_removed", "mean_flow",
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
     "slider_stroke", "joint_force_max", "slider_velocity_max", "slider_acceleration_max",
@@ -231,22 +232,25 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         ]
         still = dimensioned(film, *own) if len(own) == _BOTH else film.still()
         yield Figure(still, caption, film.about or title, label="f:machine", high=_HIGHEST)
+    if film is None:
+        yield words.paragraph("main_results", table=Reference("t:glance"))
+    yield value_table("glance", [_row(material, key) for key in _glance_keys(material)], words)
+    if results.unmet:
+        yield Paragraph((capital(warning_text(results, words.language)),))
+    else:
+        yield from _all_hold(material)
+
+
+def _glance_keys(material: Material) -> list[str]:
+    """Return the keys of the results that matter most."""
+    summary = material.summary
     # a linkage has a joint there
     numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
     keys = [key for kind in numbers for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     if material.machine.rotor is not None:
-        keys = [
-            key for key in summary if not key.startswith(("speed", "reciprocating_moment", "plane_moment", "rotor_"))
-        ]
-        keys = keys or list(summary)
-    if film is None:
-        yield words.paragraph("main_results", table=Reference("t:glance"))
-    yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
-    if results.unmet:
-        yield Paragraph((capital(warning_text(results, words.language)),))
-    else:
-        yield from _all_hold(material)
+        keys = _main_keys(material) or list(summary)
+    return keys[:_GLANCE]
 
 
 def _all_hold(material: Material) -> Iterator[Block]:
@@ -264,9 +268,16 @@ def _conclusion(material: Material) -> Iterator[Block]:
     """Yield what the results mean; where few sentences say it, and in the full note of a linkage, a table as well."""
     read = concluded(material) if material.has_piston else concluded_of_linkage(material)
     sentences = tuple(paragraph.runs for paragraph in read)
-    if not material.has_piston and (material.full or len(sentences) < _FEWEST):
+    keys = () if material.has_piston else _main_keys(material)
+    shown = {*_glance_keys(material)} if not material.full else set[str]()
+    # the first page has most of them
+    left = [key for key in keys if key not in shown]
+    fewest = 1 if material.machine.alone else _FEWEST
+    if left and (material.full or len(sentences) < fewest):
         yield material.words.paragraph("conclusion", table=Reference("t:summary"))
-        yield value_table("summary", [_row(material, key) for key in _main_keys(material)], material.words)
+        yield value_table("summary", [_row(material, key) for key in left], material.words)
+    elif not sentences:
+        yield material.words.paragraph("conclusion", table=Reference("t:glance"))
     if sentences:
         yield ItemList(sentences)
 

@@ -37,8 +37,8 @@ from crankwork.sources import school_source, source_language, sources
 PAGE, _LITTLE, _EMPTY = 728.0, 60.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
-# rows of a table that stays on one page with its caption
-TOGETHER = 20
+# rows of a table that stays on one page with its caption, and the list of symbols, which may be divided anywhere
+TOGETHER, _DIVIDED = 20, "t:nomenclature"
 
 
 class Numbering(NamedTuple):
@@ -156,7 +156,9 @@ def _runs(block: Block) -> Iterator[Run]:
 
 def is_whole(block: Block) -> bool:
     """Return whether a block stands on one page, and may wait for it."""
-    return isinstance(block, Figure) or (isinstance(block, Table) and not block.wide and len(block.rows) <= TOGETHER)
+    if isinstance(block, Table):
+        return not block.wide and len(block.rows) <= TOGETHER and block.label != _DIVIDED
+    return isinstance(block, Figure)
 
 
 def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Iterator[int]:
@@ -175,7 +177,10 @@ def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Itera
         most = PAGE if is_new or (isinstance(block, Heading) and block.level == 1) else _LITTLE
         # what waits does not stand between a heading and its text
         while waiting and (not is_heading or waiting == [k]):
-            place = next((place for place in _ready(waiting, blocks) if _fits_here(filled, heights[place], most)), None)
+            # no derivation is divided by what it does not need
+            inside = k and isinstance(block, Equation) and isinstance(blocks[k - 1], Equation)
+            ready = () if inside else _ready(waiting, blocks)
+            place = next((place for place in ready if _fits_here(filled, heights[place], most)), None)
             if place is None and (waited <= _LONG or _left(filled, heights[waiting[0]]).mean() > _EMPTY):
                 break
             place = waiting[0] if place is None else place

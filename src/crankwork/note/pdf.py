@@ -256,10 +256,10 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
     """
     widths = one_line_widths(block.headings, block.rows, size, room(block))
     if not widths:
-        # words have the room that symbols and numbers leave
-        of_words = [any(isinstance(cell, str) and " " in cell for cell in column)
-                    for column in zip(*block.rows, strict=True)]  # fmt: skip
-        return f"columns: ({', '.join('1fr' if words else 'auto' for words in of_words)},)"
+        # words have the room that symbols and numbers leave, those of long entries more of it
+        longest = [max((len(cell) for cell in column if isinstance(cell, str) and " " in cell), default=0)
+                   for column in zip(*block.rows, strict=True)]  # fmt: skip
+        return f"columns: ({', '.join(f'{length}fr' if length else 'auto' for length in longest)},)"
     columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):
         return columns

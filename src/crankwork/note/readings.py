@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.note.document import Citation, Paragraph
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import own_name
-from crankwork.report.display import key_unit, row_name
+from crankwork.report.display import key_unit, link_label, row_name
 
 if TYPE_CHECKING:
     from crankwork.note.material import Material
@@ -32,6 +32,7 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
     "range_of_piston_forces": ("piston_force_max", "piston_force_min"),
     "crankpin_bearing": ("crankpin_load_max", "mean_crankpin_load"),
     "evenness": ("flywheel_inertia", "speed_fluctuation"),
+    "stages": ("motor_power", "stage_saving", "heat_removed"),
 }
 # residuals and differences below this share are those of the computer's arithmetic
 ROUNDING = 1e-9
@@ -126,13 +127,46 @@ def concluded(material: Material) -> Iterator[Paragraph]:
         values = {"order": order, "value": words.amount(free[order], key_unit("free_force"), digits=4)} if order else {}
         sentences.append(words.paragraph("reads_free" if order else "reads_balanced", **values))
     yield from (paragraph for paragraph in sentences if paragraph is not None)
+    yield from _of_torsion(material)
+
+
+def _of_torsion(material: Material) -> Iterator[Paragraph]:
+    """Yield what torsional vibration means: its lowest frequency, its strongest resonance, its largest stress."""
+    words, summary, critical = material.words, material.summary, material.results.listings.get("critical_speeds")
+    lowest = "natural_frequency.1"
+    if lowest in summary:
+        shown = words.amount(summary[lowest], key_unit(lowest), digits=4)
+        yield words.paragraph("reads_torsion", natural_frequency=shown)
+    if critical is not None and critical.columns["critical_speed"].size:
+        row = int(np.argmax(np.abs(critical.columns["excitation_torque"])))
+        mode, order, speed = (
+            float(critical.columns[key][row]) for key in ("mode_number", "harmonic_order", "critical_speed")
+        )
+        yield words.paragraph("reads_critical", order=words.number(order), mode=words.number(mode),
+                              critical_speed=words.amount(speed, "rpm", digits=4))  # fmt: skip
+    stresses = [key for key in summary if key_of(key).quantity == "vibration_stress"]
+    if stresses:
+        largest = max(stresses, key=summary.__getitem__)
+        name = link_label(key_of(largest).owner, words.language)
+        shown = words.amount(summary[largest], key_unit(largest), digits=4)
+        yield words.paragraph("reads_vibration", value=shown, name=name)
 
 
 def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
     """Yield what the results of a linkage mean, in a few sentences."""
     words, summary, checks = material.words, material.summary, material.results.checks
-    sentences = _of_output(material), reading("joint_forces", material), reading("torques", material)
+    sentences = (_of_output(material), reading("joint_forces", material), reading("torques", material),
+                 reading("stages", material), *_of_torsion(material))  # fmt: skip
     yield from (sentence for sentence in sentences if sentence is not None)
+    masses = {key_of(key).owner: value for key, value in summary.items() if key_of(key).quantity == "plane_mass"}
+    balanced = [
+        f"{link_label(name, words.language)} – {words.amount(mass, 'kg', digits=4)}, "
+        f"{words.amount(summary[f'plane_angle.{name}'], 'deg', digits=4)}"
+        for name, mass in masses.items()
+        if f"plane_angle.{name}" in summary
+    ]
+    if balanced:
+        yield words.paragraph("reads_planes", values="; ".join(balanced))
     if "mean_torque" in summary and "shaft_power" in summary and summary["shaft_power"] > 0:
         known = [key for key in ("mean_torque", "shaft_power", "standard_motor_power") if key in summary]
         amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in known}

@@ -186,6 +186,8 @@ def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words, pa
     """
     entries = list(rows)
     titles: list[str | Runs] = ["quantity", "symbol", "value", "unit"]
+    if all(row[len(titles) :] in ((), ("–",)) for row in entries):
+        entries = [row[: len(titles)] for row in entries]
     if any(len(row) > len(titles) for row in entries):
         titles.append((words.column("at") + " ", words.place(0.0)[0]))
     return folded(words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}"), parts, _FEW)

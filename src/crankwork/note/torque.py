@@ -50,6 +50,7 @@ from crankwork.note.tables import Column, angle_table, position_tables, quantity
 from crankwork.note.wording import named
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, link_label, row_name
+from crankwork.report.torque import MODES
 
 # terms of links that a table has beside their sum
 _MOST_LINKS = 6
@@ -61,6 +62,9 @@ _OF_TABLE = ("reduced_inertia_1", "dynamic_torque", "static_torque", "balancing_
 _HOLZER, _ORDERS = "holzer_1921", "den_hartog_1956, ch. 5"
 # rows of critical speeds, and of tables by Holzer
 _MOST_CRITICAL, _MOST_ROWS = 12, 40
+_FREQUENCIES = ("natural_frequency", "damped_frequency", "angular_frequency")
+# least number that has four digits without decimals, and decimals at most
+_FOUR_DIGITS, _DECIMALS = 1000.0, 2
 
 
 _EQUATION = ("(", Math("K"), " − ", Math("ω"), "² ", Math("J"), ") ", Math("Θ"), " = 0")
@@ -220,11 +224,13 @@ class _Listing:
         if self.name == "holzer" and not material.full:
             rows = rows[listing.columns["angular_frequency"] == listing.columns["angular_frequency"][0]]
         rows = rows[:_MOST_ROWS]
-        columns = {key: values[rows] for key, values in listing.columns.items()}
+        # the caption says at which frequency
+        columns = {key: values[rows] for key, values in listing.columns.items()
+                   if material.full or (self.name, key) != ("holzer", "angular_frequency")}  # fmt: skip
         made = [
             column._replace(heading=(link_label(key_of(key).owner, words.language),))
             if key.startswith("relative_amplitude.") else column
-            for key, column in zip(columns, quantity_columns(material, columns, columns), strict=True)
+            for key, column in zip(columns, _columns(material, columns), strict=True)
         ]  # fmt: skip
         if listing.names:
             made.insert(0, Column((words.column("row"),), [_called(listing.names[row], material) for row in rows]))
@@ -232,6 +238,15 @@ class _Listing:
         align = "l" * bool(listing.names) + "r" * len(columns)
         caption = "holzer_first" if self.name == "holzer" and not material.full else self.name
         yield words.table(caption, [column.heading for column in made], cells, align, self.name)
+
+
+def _columns(material: Material, columns: Mapping[str, Array]) -> Iterator[Column]:
+    """Yield columns of quantities; of frequencies the lowest, which matters most, has its digits too."""
+    for key, values in columns.items():
+        lowest = float(np.min(np.abs(material.shown(key, values)), initial=np.inf))
+        is_spread = key_of(key).quantity in _FREQUENCIES and 0.0 < lowest < _FOUR_DIGITS
+        decimals = min(_DECIMALS, 3 - math.floor(math.log10(lowest))) if is_spread else None
+        yield quantity_column(material, key, values, decimals=decimals)
 
 
 def _called(name: str, material: Material) -> str:
@@ -257,12 +272,15 @@ def _nodes(material: Material) -> Iterator[Block]:
     if listing is None or model is None:
         return
     shapes, places, shares = results.listings["natural_modes"].columns, list[str](), list[str]()
-    for mode, name in zip(listing.columns["mode_number"].astype(int), listing.names, strict=True):
+    modes = listing.columns["mode_number"].astype(int)
+    # those of the modes that are drawn
+    rows = np.flatnonzero(material.full | (modes <= MODES))
+    for mode, name in ((int(modes[row]), listing.names[row]) for row in rows):
         ends = model.shafts[name].between if name in model.shafts else (name,)
         a, *b = (float(shapes[f"relative_amplitude.{end}"][mode - 1]) for end in ends)
         places.append(" – ".join(link_label(end, words.language) for end in ends))
         shares.append(words.number(100 * a / (a - b[0]), digits=3) if b else "–")
-    number, *distances = quantity_columns(material, listing.columns, listing.columns)
+    number, *distances = (quantity_column(material, key, values[rows]) for key, values in listing.columns.items())
     made = [number, Column((words.column("row"),), places), Column((words.column("share"),), shares), *distances]
     cells = list(zip(*(column.entries for column in made), strict=True))
     yield words.paragraph("torsion_nodes")
@@ -576,7 +594,10 @@ SECTIONS = (
         Head("evenness"), When(every(_OF_ENERGY, lacks(_IS_EXACT)), (Text("evenness_of_all"),)),
         When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact", {"work": _exact_work}),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), When(either(full, lacks(_IS_EXACT)), (Lines("uniformity"),)),
-        When(_IS_EXACT, _FOUND),
+        When(_IS_EXACT, (
+            At("reduction"), Lines("reduction", ("reduced_inertia",)),
+            Lines("engine_torque", ("total_reduced_inertia",)), *_FOUND,
+        )),
         _over_cycle,
         When(every(full, ONE), HARMONICS),
     ), has("piston_displacement", "excess_work")),

@@ -184,7 +184,7 @@ def _part(kind: str, name: str, language: Language) -> str:
         return ", ".join(link_label(part, language) for part in name.split("."))
     method_key = f"report.way_{name}"
     key = method_key if kind in _BY_WAY and has_text(method_key) else f"report.{name}"
-    return translate(key, language) if has_text(key) else own_name(kind, name)
+    return translate(key, language) if has_text(key) else own_name(kind, link_label(name, language))
 
 
 def link_label(link: str, language: Language) -> str:

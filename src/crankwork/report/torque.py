@@ -72,7 +72,7 @@ _MOST_NAMED = 24
 # letters of the work of a loop [pt]
 _NAME = 7.5
 _LINES = (("turning_moment", "torque", SOLID), ("load_torque", "load", DASHED))
-_MODES, _PANEL, _BETWEEN_PANELS = 4, 92.0, 22.0
+MODES, _PANEL, _BETWEEN_PANELS = 4, 92.0, 22.0
 # curves of a panel at most
 _CURVES = 4
 _NODE = 1e-9
@@ -352,7 +352,7 @@ def natural_modes(machine: Drawn) -> Drawing:
     columns, model = results.listings["natural_modes"].columns, results.machine.torsion
     names = [key_of(key).owner for key in columns if key.startswith("relative_amplitude.")]
     frequency = displayed_values(QUANTITIES["natural_frequency"], columns["natural_frequency"])
-    count, high = min(_MODES, frequency.size), scaled_height(_PANEL)
+    count, high = min(MODES, frequency.size), scaled_height(_PANEL)
     paper = Canvas(current_layout().width, TOP + count * (high + _BETWEEN_PANELS) + BOTTOM - _BETWEEN_PANELS)
     place = {name: float(index) for index, name in enumerate(names)}
     links = []
