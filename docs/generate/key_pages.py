@@ -109,7 +109,7 @@ def examples() -> Mapping[tuple[str, str], tuple[str, str]]:
                 continue
             below = inner_table(spec.keys[key].kind)
             if below is None:
-                written = json.dumps(value, ensure_ascii=False, default=str)
+                written = _toml(value)
                 if len(written) <= _LONGEST_EXAMPLE:
                     found.setdefault((spec.name, key), (f"{key} = {written}", file))
                 continue
@@ -120,6 +120,15 @@ def examples() -> Mapping[tuple[str, str], tuple[str, str]]:
         values = tomllib.loads(written)
         walk(STUDY_FILE if "vary" in values else file_keys(values), values, file)
     return found
+
+
+def _toml(value: Any) -> str:  # noqa: ANN401 - what a file has there
+    """Return a value as a file states it on one line."""
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{name} = {_toml(item)}' for name, item in value.items())} }}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_toml, value))}]"
+    return json.dumps(value, ensure_ascii=False, default=str)
 
 
 def _inside(value: Any, spec: TableSpec) -> Iterator[Mapping[str, Any]]:  # noqa: ANN401 - what a file has there

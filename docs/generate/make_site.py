@@ -1,7 +1,7 @@
 """Makes the documentation site: `python docs/generate/make_site.py` writes it into the folder `site`.
 
 The pages of `docs/site`, the decision records and the generated pages come together in `build/docs`, which Sphinx
-reads.
+reads. With the name of a folder, both are written into that folder.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ import validation_pages
 from crankwork.locale import LANGUAGES
 
 ROOT = Path(__file__).parents[2]
-SOURCE, SITE = ROOT / "build" / "docs", ROOT / "site"
+_FOLDER = Path(sys.argv[1]) if len(sys.argv) > 1 else None
+SOURCE, SITE = (_FOLDER / "docs", _FOLDER / "site") if _FOLDER else (ROOT / "build" / "docs", ROOT / "site")
 _STARTED = time.monotonic()
 _NAMES = {"en": "English", "ru": "По-русски", "vi": "Tiếng Việt"}
 
@@ -97,7 +98,7 @@ def _fill(path: Path) -> None:
 
 def main() -> int:
     """Make the site, return the exit status."""
-    for folder in (SOURCE, SITE):
+    for folder in (SOURCE, SOURCE.with_name("doctrees"), SITE):
         shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(ROOT / "docs" / "site", SOURCE)
     shutil.copytree(ROOT / "examples", SOURCE / "examples")
@@ -119,7 +120,21 @@ def main() -> int:
     _write(SOURCE / "validation", validation_pages.pages(notes))
     say("validation")
     interactive = SOURCE / "interactive"
-    status: int = build_main(["-q", "-W", "--keep-going", "-j", "auto", "-b", "html", str(SOURCE), str(SITE)])
+    status: int = build_main(
+        [
+            "-q",
+            "-W",
+            "--keep-going",
+            "-j",
+            "auto",
+            "-b",
+            "html",
+            "-d",
+            str(SOURCE.with_name("doctrees")),
+            str(SOURCE),
+            str(SITE),
+        ]
+    )
     shutil.copytree(interactive, SITE / "interactive")
     say(f"site: {SITE / 'index.html'}")
     return status
