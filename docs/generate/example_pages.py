@@ -34,7 +34,7 @@ def write(name: str, folder: Path, pages: Path) -> tuple[str, dict[str, str]]:
     (pages / f"{path.stem}.html").write_bytes(interactive_page(results, "en"))
     picture = ""
     if figure := _figure(results):
-        (folder / f"{path.stem}.svg").write_text(results.figure(figure).svg, encoding="utf-8")
+        (folder / f"{path.stem}.svg").write_text(results.figure(figure).styled("colour").svg, encoding="utf-8")
         picture = f"![{figure.replace('_', ' ')} of the example]({path.stem}.svg)"
     (folder / f"{path.stem}.md").write_text(_page(path, results, picture), encoding="utf-8")
     return results.machine.title or path.stem, keys_of(results)

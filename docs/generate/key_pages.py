@@ -297,7 +297,9 @@ def _needed(specs: list[KeySpec], words: Mapping[str, str]) -> str:
     kinds = {kind: 0 for one in needed if isinstance(one, tuple) for kind in one}
     if kinds:
         return words["required_kinds"].format(kinds=" | ".join(kinds))
-    return words["required"] if len(needed) == len(specs) and not any(spec.instead_of for spec in specs) else ""
+    if not needed or any(spec.instead_of for spec in specs):
+        return ""
+    return words["required"] if len(needed) == len(specs) else words["required_some"]
 
 
 def key_entry(table: Table, key: str, language: Language) -> str:

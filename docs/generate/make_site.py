@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import concurrent.futures
 import os
-import re
 import shutil
 import sys
 import time
@@ -69,17 +68,14 @@ def _references(keys: dict[str, dict[str, str]]) -> None:
         folder = SOURCE / "reference" / language
         _write(folder / "keys", key_pages.pages(language))
         _write(folder / "results", quantity_pages.pages(language, owners))
-        _write(folder, [("commands", command_pages.page(language)), ("nomenclature", _nomenclature(language))])
+        _write(
+            folder,
+            [("commands", command_pages.page(language)), ("nomenclature", quantity_pages.nomenclature(language))],
+        )
         toctree = "```{toctree}\n:maxdepth: 1\n\nkeys/index\nresults/index\ncommands\nnomenclature\n```\n"
         _write(folder, [("index", f"# {_NAMES[language]}\n\n{toctree}")])
     _write(SOURCE / "reference", [("api", api_pages.page())])
-
-
-def _nomenclature(language: str) -> str:
-    """Return symbols, and below them the terms of the notes."""
-    terms = (ROOT / "docs" / "terms.md").read_text(encoding="utf-8")
-    # one level down: the page has its own title
-    return f"{quantity_pages.nomenclature(language)}\n{re.sub('^#', '##', terms, flags=re.MULTILINE)}"
+    shutil.copy(ROOT / "docs" / "terms.md", SOURCE / "reference")
 
 
 def _decisions() -> None:

@@ -88,7 +88,7 @@ def pages(language: Language, owners: Mapping[str, tuple[str, str]]) -> Iterator
 
 
 def nomenclature(language: Language) -> str:
-    """Return the page of symbols, and of terms of the notes with the document whose each is."""
+    """Return the page of symbols."""
     words = WORDS[language]
     by_letter = sorted(
         {(quantity.symbol(language), quantity.label(language)): code(quantity.key) for rows in SUBJECTS.values()
@@ -101,7 +101,8 @@ def nomenclature(language: Language) -> str:
     ]
     head = f"<thead><tr><th>{words['symbol']}</th><th>{words['quantity']}</th><th></th></tr></thead>"
     table = ['<div class="wide-table"><table class="symbols">', head, "<tbody>", *lines, "</tbody></table></div>"]
-    return f"# {words['nomenclature_title']}\n\n{words['nomenclature_intro']}\n\n{raw(table)}\n"
+    terms = f"[{words['terms']}](../terms.md)"
+    return f"# {words['nomenclature_title']}\n\n{words['nomenclature_intro']} {terms}.\n\n{raw(table)}\n"
 
 
 def without_name() -> list[str]:

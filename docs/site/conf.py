@@ -22,6 +22,4 @@ autodoc_typehints = "description"
 autodoc_typehints_format = "short"
 napoleon_numpy_docstring = True
 napoleon_google_docstring = False
-# decision records are read one by one, and have links to files of the repository
-suppress_warnings = ["myst.xref_missing", "toc.not_included"]
 nitpicky = False
