@@ -42,7 +42,7 @@ class Method:
 
     @property
     def name(self) -> str:
-        """`exact`, `textbook` or `series:N`."""
+        """Name of the kinematics, that of a series with its order."""
         return f"series:{self.order}" if self.kinematics == "series" else self.kinematics
 
     @property

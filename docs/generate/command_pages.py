@@ -1,0 +1,69 @@
+"""The reference of the command line: every command with its arguments and options, from click."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import click
+
+from crankwork.cli import commands
+from crankwork.cli.options import option_key
+from crankwork.locale import LANGUAGES, Language, translate
+from html_text import code, entry, raw, sentence, text
+from key_pages import WORDS
+
+
+def _parameters(command: click.Command) -> Iterator[click.Option]:
+    for parameter in command.get_params(click.Context(command)):
+        if isinstance(parameter, click.Option):
+            yield parameter
+
+
+def option_text(command: str, option: click.Option, language: Language) -> str:
+    """Return what an option does."""
+    default = option.default() if callable(option.default) else option.default
+    return translate(option_key(command, option), language, default=default)
+
+
+def _usage(command: click.Command) -> str:
+    context = click.Context(command, info_name=f"crankwork {command.name}")
+    return " ".join([context.command_path, *command.collect_usage_pieces(context)])
+
+
+def _option_entry(command: str, option: click.Option, language: Language) -> str:
+    words = WORDS[language]
+    name = ", ".join(option.opts) + (f" {option.make_metavar(click.Context(commands))}" if not option.is_flag else "")
+    shown = option.default if isinstance(option.default, str | int) and not isinstance(option.default, bool) else ""
+    choices = option.type.choices if isinstance(option.type, click.Choice) else ()
+    facts = [
+        (words["option_values"], ", ".join(map(code, choices))),
+        (words["default"], code(shown) if shown != "" else ""),
+    ]
+    said = text(sentence(option_text(command, option, language)))
+    return entry(f"{command}{option.opts[-1]}", name, said, facts, words["required"] if option.required else "")
+
+
+def page(language: Language) -> str:
+    """Return the page of a language."""
+    words = WORDS[language]
+    parts = [f"# {words['commands_title']}\n\n{words['commands_intro']}\n"]
+    for name, command in sorted(commands.commands.items()):
+        parts.append(f"## `crankwork {name}`\n\n{translate(f'help.command_{name}', language)}\n")
+        options = (_option_entry(name, option, language) for option in _parameters(command))
+        parts.append(raw([f"<p>{words['usage']}: {code(_usage(command))}</p>", *options]))
+    return "\n".join(parts)
+
+
+def without_sentence() -> list[str]:
+    """Return the commands and options that some language says nothing of."""
+    said = {
+        f"{language}: {name} {option.opts[-1]}": option_text(name, option, language)
+        for language in LANGUAGES
+        for name, command in commands.commands.items()
+        for option in _parameters(command)
+    } | {
+        f"{language}: {name}": translate(f"help.command_{name}", language)
+        for language in LANGUAGES
+        for name in commands.commands
+    }
+    return [place for place, words in said.items() if len(words.split()) < 2]

@@ -1,0 +1,55 @@
+"""The machines of the repository, and which keys their results have."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import crankwork
+from crankwork.formula.traced_value import in_order
+from crankwork.quantities import base_key
+from crankwork.quantities.key import key_of
+
+ROOT = Path(__file__).parents[2]
+_TEMPLATE = "crankwork new "
+
+
+def names() -> list[str]:
+    """Return the files of examples and test machines, and the commands that write templates."""
+    files = [path for folder in ("examples", "tests/machines") for path in sorted((ROOT / folder).glob("*.toml"))]
+    return [*(path.relative_to(ROOT).as_posix() for path in files), *map(_TEMPLATE.__add__, crankwork.template_names())]
+
+
+def analysed(name: str) -> crankwork.Results:
+    """Return the results of a machine."""
+    if name.startswith(_TEMPLATE):
+        return crankwork.analyse(crankwork.read_machine(crankwork.template(name.removeprefix(_TEMPLATE))))
+    return crankwork.analyse(crankwork.read(ROOT / name))
+
+
+def keys_of(results: crankwork.Results) -> dict[str, str]:
+    """Return the plainest key of each quantity in results; one that has an owner tells most."""
+    found: dict[str, str] = {}
+    traced = (value.key for value in in_order(results.trace.values()))
+    for key in (*results, *filter(None, traced)):
+        quantity = base_key(key)
+        found[quantity] = max(found.get(quantity, key), key, key=_tells)
+    return found
+
+
+def _tells(key: str) -> tuple[bool, int]:
+    return bool(key_of(key).owner), -len(key)
+
+
+def keys_of_machine(name: str) -> dict[str, str]:
+    """Return a key of each quantity in the results of a machine."""
+    return keys_of(analysed(name))
+
+
+def owners(keys: dict[str, dict[str, str]]) -> dict[str, tuple[str, str]]:
+    """Return the plainest key of each quantity, and the machine whose results have it."""
+    found: dict[str, tuple[str, str]] = {}
+    for name, own in keys.items():
+        for quantity, key in own.items():
+            if quantity not in found or _tells(key) > _tells(found[quantity][0]):
+                found[quantity] = key, name
+    return found
