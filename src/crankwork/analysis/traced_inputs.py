@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from crankwork.dynamics import masses as masses_of_rod
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
@@ -20,9 +19,6 @@ from crankwork.machine import Drive, InputNumber, Machine
 from crankwork.method import Method
 from crankwork.units import UNITS
 from crankwork.working_cycle.engine_size import bore_and_stroke, swept_volume_of_one
-
-if TYPE_CHECKING:
-    from crankwork.machine import Machine
 
 _SAME = 1e-12
 # sizes that give others, by their keys in a description
