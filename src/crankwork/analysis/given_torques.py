@@ -76,15 +76,11 @@ def works_at_once(machine: Machine, turning: ShaftTorques, table: str, key: str,
     return total("stroke_work", works * len(diagram.delays))
 
 
-def _stated(machine: Machine, path: str, key: str) -> TracedValue:
-    """Return a number as the description states it, absent if it does not."""
-    return given(key, machine.stated[path].value, path) if path in machine.stated else absent(key)
-
-
 def work_scale(machine: Machine, table: str) -> TracedValue:
     """Return the work that a unit of area of a drawing represents, absent without a scale."""
     work, torque, angle = (
-        _stated(machine, f"{table}.scale.{name}", f"{name}_scale") for name in ("work", "torque", "angle")
+        traced_inputs.stated_value(machine, f"{table}.scale.{name}", f"{name}_scale")
+        for name in ("work", "torque", "angle")
     )
     is_product = work.is_absent and not (torque.is_absent or angle.is_absent)
     return (torque * angle).named("work_scale") if is_product else work
@@ -175,15 +171,15 @@ class _Torque:
         """Return the work of a stroke: stated, of an area of the drawing, or of shearing."""
         path, scale = f"{self._table}.strokes[{number}]", work_scale(self._machine, self._table)
         plain = given(f"stroke_work.{number}", self._diagram.strokes[number - 1].work, f"{path}.work")
-        work, strength = self._machine.stated.get(f"{path}.work"), self._stated(number, "shear_strength")
-        energy = self._stated(number, "shear_energy")
+        work, strength = self._machine.stated.get(f"{path}.work"), self._of_stroke(number, "shear_strength")
+        energy = self._of_stroke(number, "shear_energy")
         if not (energy.is_absent and strength.is_absent):
             thickness, hole = (
-                self._stated(number, "thickness", "plate_thickness"),
-                self._stated(number, "hole_diameter"),
+                self._of_stroke(number, "thickness", "plate_thickness"),
+                self._of_stroke(number, "hole_diameter"),
             )
             if hole.is_absent:
-                area = self._stated(number, "cut_width") * thickness
+                area = self._of_stroke(number, "cut_width") * thickness
             else:
                 area = sheared_area_of_hole(self._machine.method.pi, hole, thickness)
             area = area.named(f"sheared_area.{number}")
@@ -194,16 +190,16 @@ class _Torque:
             return traced_inputs.checked(scale * given("drawn_area", work.value, f"{path}.work"), plain)
         return plain
 
-    def _stated(self, number: int, name: str, key: str = "") -> TracedValue:
+    def _of_stroke(self, number: int, name: str, key: str = "") -> TracedValue:
         """Return a number of a stroke, absent if it is not stated; `key`: of its quantity where that differs."""
-        return _stated(self._machine, f"{self._table}.strokes[{number}].{name}", key or name)
+        return traced_inputs.stated_value(self._machine, f"{self._table}.strokes[{number}].{name}", key or name)
 
     def _by_strength(
         self, number: int, strength: TracedValue, area: TracedValue, thickness: TracedValue
     ) -> TracedValue:
         """Return the work of a stroke that shears an area by its strength, until the plate is cut through."""
-        depth = (self._stated(number, "penetration") * thickness).named("sheared_depth")
-        force, longer = shearing_force(strength, area), self._stated(number, "punch_slope")
+        depth = (self._of_stroke(number, "penetration") * thickness).named("sheared_depth")
+        force, longer = shearing_force(strength, area), self._of_stroke(number, "punch_slope")
         if longer.is_absent:
             return force.named(f"shearing_force.{number}") * depth  # type: ignore[no-any-return]
         force = force_of_slope(force.named(f"flat_shearing_force.{number}"), depth, longer)
@@ -213,9 +209,9 @@ class _Torque:
         """Return the angle of a stroke: stated, of a time, of a part of the period, or of a punch in a plate."""
         path = f"{self._table}.strokes[{number}].over"
         plain, over = given(f"stroke_angle.{number}", stroke.over, path), self._machine.stated.get(path)
-        punch, period = self._stated(number, "punch_stroke"), self._period_value()
+        punch, period = self._of_stroke(number, "punch_stroke"), self._period_value()
         if not punch.is_absent:
-            thickness = self._stated(number, "thickness", "plate_thickness")
+            thickness = self._of_stroke(number, "thickness", "plate_thickness")
             return traced_inputs.checked(angle_in_plate(thickness, period, punch), plain)
         if over is not None and over.unit and UNITS[over.unit].dimension == "time":
             return traced_inputs.checked(self._w * given("stroke_time", over.value, path), plain)
@@ -557,7 +553,10 @@ def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Tu
 
 def _constant(machine: Machine, diagram: TorqueDiagram, table: str, key: str, w: TracedValue) -> TracedValue:
     """Return a constant torque that is stated, or that of a power."""
-    power, plain = _stated(machine, f"{table}.power", "shaft_power"), given(key, diagram.constant, f"{table}.constant")
+    power, plain = (
+        traced_inputs.stated_value(machine, f"{table}.power", "shaft_power"),
+        given(key, diagram.constant, f"{table}.constant"),
+    )
     return plain if power.is_absent else traced_inputs.checked(power / w, plain)
 
 
@@ -575,14 +574,15 @@ def _of_loops(machine: Machine, diagram: TorqueDiagram, table: str) -> tuple[Tra
 
 def _work_of(machine: Machine, path: str, key: str, work: float, scale: TracedValue) -> TracedValue:
     """Return a work that is stated, or that of an area of the drawing."""
-    area, plain = _stated(machine, path, f"drawn_area.{key.rpartition('.')[2]}"), given(key, work, path)
+    area = traced_inputs.stated_value(machine, path, f"drawn_area.{key.rpartition('.')[2]}")
+    plain = given(key, work, path)
     return plain if scale.is_absent or area.is_absent else traced_inputs.checked(scale * area, plain)
 
 
 def _of_excess(machine: Machine, diagram: TorqueDiagram, table: str, mean: TracedValue) -> dict[str, TracedValue]:
     """Return an excess work that is stated, or that of its coefficient."""
     plain = given("excess_work", diagram.excess or 0.0, f"{table}.excess_work")
-    coefficient = _stated(machine, f"{table}.energy_fluctuation", "energy_fluctuation")
+    coefficient = traced_inputs.stated_value(machine, f"{table}.energy_fluctuation", "energy_fluctuation")
     if coefficient.is_absent:
         return _per_cycle(machine, mean, _work_of(machine, f"{table}.excess_work", "excess_work", plain.value,
                                                   work_scale(machine, table)))  # fmt: skip
