@@ -76,17 +76,14 @@ def works_at_once(machine: Machine, turning: ShaftTorques, table: str, key: str,
     return total("stroke_work", works * len(diagram.delays))
 
 
-def work_scale(machine: Machine, table: str) -> TracedValue | None:
-    """Return the work that a unit of area of a drawing represents, None without a scale."""
-    stated = {name: machine.stated.get(f"{table}.scale.{name}") for name in ("work", "torque", "angle")}
-    known = {
-        name: given(f"{name}_scale", value.value, f"{table}.scale.{name}")
-        for name, value in stated.items()
-        if value is not None
-    }
-    if "work" in known:
-        return known["work"]
-    return (known["torque"] * known["angle"]).named("work_scale") if len(known) == 2 else None
+def work_scale(machine: Machine, table: str) -> TracedValue:
+    """Return the work that a unit of area of a drawing represents, absent without a scale."""
+    work, torque, angle = (
+        traced_inputs.stated_value(machine, f"{table}.scale.{name}", f"{name}_scale")
+        for name in ("work", "torque", "angle")
+    )
+    is_product = work.is_absent and not (torque.is_absent or angle.is_absent)
+    return (torque * angle).named("work_scale") if is_product else work
 
 
 class _Torque:
@@ -104,7 +101,8 @@ class _Torque:
         diagram = self._diagram
         if diagram.points:
             return self._through_points().named(self._key)
-        parts = [self._constant()] if diagram.constant else []
+        constant = _constant(self._machine, diagram, self._table, f"{self._key}.0", self._w)
+        parts = [constant] if diagram.constant else []
         for number, (order, sine, cosine) in enumerate(diagram.harmonics, start=1):
             path = f"{self._table}.harmonics[{number}]"
             a, b = (
@@ -118,14 +116,6 @@ class _Torque:
             if stroke.over:
                 parts.extend(self._stretch(stroke, number))
         return total(self._key, parts) if parts else absent(self._key)
-
-    def _constant(self) -> TracedValue:
-        """Return the constant part: stated, or that of a power."""
-        path, power = f"{self._table}.constant", self._machine.stated.get(f"{self._table}.power")
-        plain = given(f"{self._key}.0", self._diagram.constant, path)
-        if power is None:
-            return plain
-        return traced_inputs.checked(given("shaft_power", power.value, f"{self._table}.power") / self._w, plain)
 
     def _through_points(self) -> TracedValue:
         """Return the broken line through the points."""
@@ -145,7 +135,7 @@ class _Torque:
         height = given(f"{self._key}.{index + 1}", torque, f"{self._table}.torque[{index + 1}]")
         place = given(f"crank_angle.{index + 1}", angle, f"{self._table}.at[{index + 1}]")
         if moved:
-            period = given("cycle_angle", self._diagram.period, f"{self._table}.period")
+            period = self._period_value()
             place = (place + period if moved > 0 else place - period).named(f"crank_angle.{index + 1}")
         return height, place
 
@@ -179,58 +169,59 @@ class _Torque:
 
     def work(self, number: int) -> TracedValue:
         """Return the work of a stroke: stated, of an area of the drawing, or of shearing."""
-        machine, stated, path = self._machine, self._machine.stated, f"{self._table}.strokes[{number}]"
+        path, scale = f"{self._table}.strokes[{number}]", work_scale(self._machine, self._table)
         plain = given(f"stroke_work.{number}", self._diagram.strokes[number - 1].work, f"{path}.work")
-        scale = work_scale(machine, self._table)
-        work, shear = stated.get(f"{path}.work"), stated.get(f"{path}.shear_energy")
-        strength = stated.get(f"{path}.shear_strength")
-        if shear is not None or strength is not None:
-            thickness = given("plate_thickness", stated[f"{path}.thickness"].value, f"{path}.thickness")
-            hole, strip = stated.get(f"{path}.hole_diameter"), stated.get(f"{path}.cut_width")
-            if hole is not None:
-                diameter = given("hole_diameter", hole.value, f"{path}.hole_diameter")
-                area: TracedValue = sheared_area_of_hole(machine.method.pi, diameter, thickness)
+        work, strength = self._machine.stated.get(f"{path}.work"), self._of_stroke(number, "shear_strength")
+        energy = self._of_stroke(number, "shear_energy")
+        if not (energy.is_absent and strength.is_absent):
+            thickness, hole = (
+                self._of_stroke(number, "thickness", "plate_thickness"),
+                self._of_stroke(number, "hole_diameter"),
+            )
+            if hole.is_absent:
+                area = self._of_stroke(number, "cut_width") * thickness
             else:
-                width = given("cut_width", strip.value if strip else 0.0, f"{path}.cut_width")
-                area = width * thickness
+                area = sheared_area_of_hole(self._machine.method.pi, hole, thickness)
             area = area.named(f"sheared_area.{number}")
-            if strength is not None:
-                return traced_inputs.checked(self._by_strength(number, area, thickness), plain)
-            energy = given("shear_energy", shear.value if shear else 0.0, f"{path}.shear_energy")
-            return traced_inputs.checked(energy * area, plain)
-        if scale is not None and work is not None and UNITS[work.unit].dimension == "area":
+            by_strength = not strength.is_absent
+            sheared = self._by_strength(number, strength, area, thickness) if by_strength else energy * area
+            return traced_inputs.checked(sheared, plain)
+        if not scale.is_absent and work is not None and UNITS[work.unit].dimension == "area":
             return traced_inputs.checked(scale * given("drawn_area", work.value, f"{path}.work"), plain)
         return plain
 
-    def _by_strength(self, number: int, area: TracedValue, thickness: TracedValue) -> TracedValue:
+    def _of_stroke(self, number: int, name: str, key: str = "") -> TracedValue:
+        """Return a number of a stroke, absent if it is not stated; `key`: of its quantity where that differs."""
+        return traced_inputs.stated_value(self._machine, f"{self._table}.strokes[{number}].{name}", key or name)
+
+    def _by_strength(
+        self, number: int, strength: TracedValue, area: TracedValue, thickness: TracedValue
+    ) -> TracedValue:
         """Return the work of a stroke that shears an area by its strength, until the plate is cut through."""
-        stated, path = self._machine.stated, f"{self._table}.strokes[{number}]"
-        strength = given("shear_strength", stated[f"{path}.shear_strength"].value, f"{path}.shear_strength")
-        depth = given("penetration", stated[f"{path}.penetration"].value, f"{path}.penetration") * thickness
-        depth, force = depth.named("sheared_depth"), shearing_force(strength, area)
-        slope = stated.get(f"{path}.punch_slope")
-        if slope is None:
+        depth = (self._of_stroke(number, "penetration") * thickness).named("sheared_depth")
+        force, longer = shearing_force(strength, area), self._of_stroke(number, "punch_slope")
+        if longer.is_absent:
             return force.named(f"shearing_force.{number}") * depth  # type: ignore[no-any-return]
-        longer = given("punch_slope", slope.value, f"{path}.punch_slope")
         force = force_of_slope(force.named(f"flat_shearing_force.{number}"), depth, longer)
         return force.named(f"shearing_force.{number}") * (depth + longer)  # type: ignore[no-any-return]
 
     def _over(self, stroke: WorkStroke, number: int) -> TracedValue:
         """Return the angle of a stroke: stated, of a time, of a part of the period, or of a punch in a plate."""
-        stated, path = self._machine.stated, f"{self._table}.strokes[{number}]"
-        plain = given(f"stroke_angle.{number}", stroke.over, f"{path}.over")
-        over, punch = stated.get(f"{path}.over"), stated.get(f"{path}.punch_stroke")
-        period = given("cycle_angle", self._diagram.period, f"{self._table}.period")
-        if punch is not None:
-            thickness = given("plate_thickness", stated[f"{path}.thickness"].value, f"{path}.thickness")
-            return traced_inputs.checked(
-                angle_in_plate(thickness, period, given("punch_stroke", punch.value, f"{path}.punch_stroke")), plain
-            )
+        path = f"{self._table}.strokes[{number}].over"
+        plain, over = given(f"stroke_angle.{number}", stroke.over, path), self._machine.stated.get(path)
+        punch, period = self._of_stroke(number, "punch_stroke"), self._period_value()
+        if not punch.is_absent:
+            thickness = self._of_stroke(number, "thickness", "plate_thickness")
+            return traced_inputs.checked(angle_in_plate(thickness, period, punch), plain)
         if over is not None and over.unit and UNITS[over.unit].dimension == "time":
-            return traced_inputs.checked(self._w * given("stroke_time", over.value, f"{path}.over"), plain)
+            return traced_inputs.checked(self._w * given("stroke_time", over.value, path), plain)
         if over is not None and not over.unit:
-            return traced_inputs.checked(given("stroke_share", over.value, f"{path}.over") * period, plain)
+            return traced_inputs.checked(given("stroke_share", over.value, path) * period, plain)
         return plain
+
+    def _period_value(self) -> TracedValue:
+        """Return the period of the torque."""
+        return given("cycle_angle", self._diagram.period, f"{self._table}.period")
 
 
 COLUMNS = (
@@ -527,7 +518,7 @@ def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Tu
     summary, listings, between = _given_values(machine, w), dict[str, Listing](), dict[str, TracedValue]()
     mean = absent("mean_torque")
     if diagram.constant:
-        mean = summary["mean_torque"] = _constant(machine, diagram, table, w)
+        mean = summary["mean_torque"] = _constant(machine, diagram, table, "mean_torque", w)
         summary |= _power(machine, turning, mean, w)
     checks = {}
     if diagram.loops:
@@ -560,15 +551,13 @@ def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Tu
     return _Turned({}, summary, between, checks, notices, listings)
 
 
-def _constant(machine: Machine, diagram: TorqueDiagram, table: str, w: TracedValue) -> TracedValue:
-    """Return a mean torque that is stated, or that of a power."""
-    power = machine.stated.get(f"{table}.power")
-    plain = given("mean_torque", diagram.constant, f"{table}.constant")
-    return (
-        plain
-        if power is None
-        else traced_inputs.checked(given("shaft_power", power.value, f"{table}.power") / w, plain)
+def _constant(machine: Machine, diagram: TorqueDiagram, table: str, key: str, w: TracedValue) -> TracedValue:
+    """Return a constant torque that is stated, or that of a power."""
+    power, plain = (
+        traced_inputs.stated_value(machine, f"{table}.power", "shaft_power"),
+        given(key, diagram.constant, f"{table}.constant"),
     )
+    return plain if power.is_absent else traced_inputs.checked(power / w, plain)
 
 
 def _of_loops(machine: Machine, diagram: TorqueDiagram, table: str) -> tuple[TracedValue, list[TracedValue]]:
@@ -576,34 +565,28 @@ def _of_loops(machine: Machine, diagram: TorqueDiagram, table: str) -> tuple[Tra
     scale, after, energies = work_scale(machine, table), absent("kinetic_energy_change.0"), list[TracedValue]()
     for number, work in enumerate(diagram.loops, start=1):
         loop = _work_of(machine, f"{table}.areas[{number}]", f"loop_work.{number}", work, scale)
-        after = (
-            (after + loop).named(f"kinetic_energy_change.{number}")
-            if number > 1
-            else loop.named(f"kinetic_energy_change.{number}")
-        )
+        after = (after + loop if number > 1 else loop).named(f"kinetic_energy_change.{number}")
         energies.append(after)
     ordered = sorted(energies, key=lambda item: item.value)
     least, largest = ordered[0], ordered[-1]
     return (largest - least).named("excess_work"), energies
 
 
-def _work_of(machine: Machine, path: str, key: str, work: float, scale: TracedValue | None) -> TracedValue:
+def _work_of(machine: Machine, path: str, key: str, work: float, scale: TracedValue) -> TracedValue:
     """Return a work that is stated, or that of an area of the drawing."""
-    stated, plain = machine.stated.get(path), given(key, work, path)
-    if scale is None or stated is None:
-        return plain
-    return traced_inputs.checked(scale * given(f"drawn_area.{key.rpartition('.')[2]}", stated.value, path), plain)
+    area = traced_inputs.stated_value(machine, path, f"drawn_area.{key.rpartition('.')[2]}")
+    plain = given(key, work, path)
+    return plain if scale.is_absent or area.is_absent else traced_inputs.checked(scale * area, plain)
 
 
 def _of_excess(machine: Machine, diagram: TorqueDiagram, table: str, mean: TracedValue) -> dict[str, TracedValue]:
     """Return an excess work that is stated, or that of its coefficient."""
     plain = given("excess_work", diagram.excess or 0.0, f"{table}.excess_work")
-    ratio = machine.stated.get(f"{table}.energy_fluctuation")
-    if ratio is None:
+    coefficient = traced_inputs.stated_value(machine, f"{table}.energy_fluctuation", "energy_fluctuation")
+    if coefficient.is_absent:
         return _per_cycle(machine, mean, _work_of(machine, f"{table}.excess_work", "excess_work", plain.value,
                                                   work_scale(machine, table)))  # fmt: skip
     result = _per_cycle(machine, mean, plain)
-    coefficient = given("energy_fluctuation", ratio.value, f"{table}.energy_fluctuation")
     work = result["work_per_cycle"].named("work_per_cycle")
     return {
         **result,

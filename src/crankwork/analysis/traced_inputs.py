@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from crankwork.dynamics import masses as masses_of_rod
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
@@ -16,13 +15,10 @@ from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
 from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, stroke_offset
-from crankwork.machine import Drive, InputNumber, Machine
+from crankwork.machine import Drive, Machine
 from crankwork.method import Method
 from crankwork.units import UNITS
 from crankwork.working_cycle.engine_size import bore_and_stroke, swept_volume_of_one
-
-if TYPE_CHECKING:
-    from crankwork.machine import Machine
 
 _SAME = 1e-12
 # sizes that give others, by their keys in a description
@@ -30,6 +26,11 @@ _SIZES = {
     "cylinder.displacement": "displacement", "cylinder.stroke_bore_ratio": "stroke_bore_ratio", "cylinder.bore": "bore",
     "crank.stroke": "stroke", "crank.radius": "crank_radius", "engine.cylinders": "cylinder_count",
 }  # fmt: skip
+
+
+def stated_value(machine: Machine, path: str, key: str) -> TracedValue:
+    """Return a number that the description states, as a quantity of that key; absent if it does not state it."""
+    return given(key, machine.stated[path].value, path) if path in machine.stated else absent(key)
 
 
 def size(path: str, value: float) -> TracedValue:
@@ -44,14 +45,13 @@ def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     calculated = calculated_size(machine, "stroke")
     if calculated is not None and "crank.radius" not in machine.stated:
         radius = checked(calculated / 2, radius)
-    stroke, ratio = (_stated(machine, key) for key in ("crank.stroke", "rod.ratio"))
-    if stroke is not None:
-        radius = checked(size("crank.stroke", stroke.value) / 2, radius)
-    length = given("rod_length", l, "rod.length")
-    if ratio is not None and _is_close(ratio.value, r / l):
-        length = checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
-    elif ratio is not None:
-        length = checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
+    stroke = stated_value(machine, "crank.stroke", "stroke")
+    if not stroke.is_absent:
+        radius = checked(stroke / 2, radius)
+    length, ratio = given("rod_length", l, "rod.length"), stated_value(machine, "rod.ratio", "rod_ratio")
+    if not ratio.is_absent:
+        is_inverse = not _is_close(ratio.value, r / l)
+        length = checked(radius * ratio.named("inverse_rod_ratio") if is_inverse else radius / ratio, length)
     return SliderCrank(radius, length, given("offset", e, _offset_of(machine, e)) if e else absent("offset"))
 
 
@@ -64,8 +64,7 @@ def _offset_of(machine: Machine, offset: float) -> str:
 def calculated_size(machine: Machine, key: str) -> TracedValue | None:
     """Return the size from other sizes or the calculation of a cycle if the description leaves the size open."""
     cycle = getattr(machine.gas.calculated, "cycle", None) if machine.gas is not None else None
-    target = _stated(machine, "cycle.power")
-    result = None if cycle is None or target is None else cycle.trace.get(key)
+    result = None if cycle is None or "cycle.power" not in machine.stated else cycle.trace.get(key)
     if result is None:
         return _sizes(machine)[key == "stroke"]
     # calculated sizes are rounded to millimetres
@@ -115,7 +114,7 @@ def speed_at(machine: Machine, method: Method, path: str, value: float, name: st
 
     `name`: suffix that distinguishes it from the speed of the crank.
     """
-    stated, turns = _stated(machine, path), given(f"rotational_speed{name}", value * 30 / math.pi, path, "rpm")
+    stated, turns = machine.stated.get(path), given(f"rotational_speed{name}", value * 30 / math.pi, path, "rpm")
     result: TracedValue = angular_speed(method.pi, turns).named(f"speed{name}")
     in_radians = stated is not None and UNITS[stated.unit].factor == 1.0
     return checked(given(f"speed{name}", stated.value, path), result) if stated and in_radians else result
@@ -185,7 +184,7 @@ def masses(
     """
 
     def mass(key: str, value: float, path: str) -> TracedValue:
-        stated, plain = _stated(machine, path), given(key, value, path)
+        stated, plain = machine.stated.get(path), given(key, value, path)
         if stated is None or area is None or UNITS[stated.unit].dimension != "mass_per_area":
             return plain
         own = given(f"mass_per_area.of_{key.removesuffix('_mass')}", stated.value, path)
@@ -196,7 +195,7 @@ def masses(
     small = mass("rod_small_end_mass", known.rod_small_end, f"{table}.small_end_mass")
     big = mass("rod_big_end_mass", known.rod_big_end, f"{table}.big_end_mass")
     excess = given("rod_inertia_excess", known.rod_inertia_excess, f"{table}.inertia")
-    stated = _stated(machine, f"{table}.mass")
+    stated = machine.stated.get(f"{table}.mass")
     if stated is not None:
         total_mass = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
         centre = _centre(machine, length, table)
@@ -212,13 +211,14 @@ def masses(
 
 def _centre(machine: Machine, length: Value, table: str) -> TracedValue:
     """Return the distance of the centre of mass of the rod from the crankpin."""
-    share, centre = (_stated(machine, f"{table}.{key}") for key in ("small_end_share", "centre_of_mass"))
-    if share is None and centre is None and (swings := pendulum(machine, length)):
-        return swings[0]
-    if share is not None:
-        distance: TracedValue = given("small_end_share", share.value, f"{table}.small_end_share") * length
+    share = stated_value(machine, f"{table}.small_end_share", "small_end_share")
+    centre = stated_value(machine, f"{table}.centre_of_mass", "rod_centre_distance")
+    if not share.is_absent:
+        distance: TracedValue = share * length
         return distance.named("rod_centre_distance")
-    return given("rod_centre_distance", centre.value if centre is not None else 0.0, f"{table}.centre_of_mass")
+    if centre.is_absent and (swings := pendulum(machine, length)):
+        return swings[0]
+    return given("rod_centre_distance", centre.value, f"{table}.centre_of_mass")
 
 
 def _excess(
@@ -231,30 +231,25 @@ def _excess(
 
 def _own_inertia(machine: Machine, mass: TracedValue, length: Value, table: str) -> TracedValue | None:
     """Return the moment of inertia of the rod about its centre of mass, None if nothing tells it."""
-    inertia, radius = (_stated(machine, f"{table}.{key}") for key in ("inertia", "radius_of_gyration"))
-    if inertia is not None:
-        return given("rod_inertia", inertia.value, f"{table}.inertia")
-    swings = pendulum(machine, length) if table == "rod" and radius is None else ()
-    if radius is None and not swings:
+    inertia = stated_value(machine, f"{table}.inertia", "rod_inertia")
+    gyration = stated_value(machine, f"{table}.radius_of_gyration", "rod_gyration_radius")
+    if inertia.is_absent and gyration.is_absent and table == "rod":
+        gyration = next(iter(pendulum(machine, length)[1:]), gyration)
+    if inertia.is_absent and gyration.is_absent:
         return None
-    gyration = (
-        swings[1] if radius is None else given("rod_gyration_radius", radius.value, f"{table}.radius_of_gyration")
-    )
-    return (mass * gyration * gyration).named("rod_inertia")
+    return (mass * gyration * gyration).named("rod_inertia") if inertia.is_absent else inertia
 
 
 def pendulum(machine: Machine, length: Value) -> tuple[TracedValue, ...]:
     """Return centre of mass and radius of gyration of a rod that swung on either bore, nothing if it did not."""
-    keys = ("small_end_period", "big_end_period", "small_end_diameter", "big_end_diameter")
-    stated = [machine.stated.get(f"rod.pendulum.{key}") for key in keys]
-    if None in stated:
-        return ()
-    kinds = ("swing_period.small_end", "swing_period.big_end", "bore_diameter.small_end", "bore_diameter.big_end")
-    small, big, upper, lower = (
-        given(kind, number.value, f"rod.pendulum.{key}")
-        for kind, key, number in zip(kinds, keys, stated, strict=True)
-        if number is not None
+    swings = (
+        stated_value(machine, f"rod.pendulum.{end}_{name}", f"{key}.{end}")
+        for key, name in (("swing_period", "period"), ("bore_diameter", "diameter"))
+        for end in ("small_end", "big_end")
     )
+    small, big, upper, lower = swings
+    if any(number.is_absent for number in (small, big, upper, lower)):
+        return ()
     method = machine.method
     g = given("gravity", method.gravity, "method.gravity")
     first, second = (
@@ -285,10 +280,6 @@ def _equivalent(machine: Machine, mass: TracedValue, centre: TracedValue, length
         for end, arm in ends.items()
     )
     yield from (inertia, first, last, (mass - first - last).named("equivalent_mass.centre"))
-
-
-def _stated(machine: Machine, path: str) -> InputNumber | None:
-    return machine.stated.get(path)
 
 
 def _is_close(first: float, second: float) -> bool:
