@@ -11,10 +11,9 @@ from collections.abc import Iterator, Mapping
 import crankwork
 from crankwork.formula.expression import FORMULAS, Formula, record
 from crankwork.locale import LANGUAGES, Language, capital, translate
+from crankwork.note.captions import printed_unit
 from crankwork.note.layout import EQUALS, row
-from crankwork.note.math import formula_box
-from crankwork.note.mathml import mathml_box
-from crankwork.note.printed_units import printed_unit
+from crankwork.note.math import formula_box, mathml_box
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import SUBJECTS, Quantity
 from crankwork.quantities.key import key_of
