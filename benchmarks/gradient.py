@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 import crankwork
+from crankwork.description.document import numeric_field
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.numeric_field import numeric_field
 
 FILE = Path(__file__).parents[1] / "tests" / "machines" / "v-two.toml"
 FIELDS = ("crank.radius", "rod.length", "crank.speed", "piston.mass", "cylinder.bore", "cylinder.compression_ratio")
