@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import crankwork
-from crankwork.description.numeric_field import numeric_field
+from crankwork.description.document import numeric_field
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
 

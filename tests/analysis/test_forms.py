@@ -15,7 +15,7 @@ import pytest
 
 from crankwork import Description, analyse, read_machine, template
 from crankwork.analysis.results import Results
-from crankwork.description.numeric_field import numeric_field
+from crankwork.description.document import numeric_field
 from crankwork.description.shorthand import expanded
 from crankwork.errors import RenamedKeyWarning
 from crankwork.quantities.key import RENAMED

@@ -22,9 +22,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results, analyse
-from crankwork.description.document import Description
+from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError
 from crankwork.formula.cycle_interpolant import BEYOND
 from crankwork.formula.replay import replay

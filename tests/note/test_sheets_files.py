@@ -20,8 +20,7 @@ from fontTools.ttLib import TTFont, TTLibError
 
 from crankwork.errors import MissingExtraError
 from crankwork.note.sheets import Paper, TitleBlock
-from crankwork.show.dxf import dxf
-from crankwork.show.formats import pdf
+from crankwork.show.formats import dxf, pdf
 from crankwork.show.scene import (
     CAP_HEIGHT,
     INDEX,

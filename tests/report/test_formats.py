@@ -15,8 +15,7 @@ import crankwork
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.report.figures import drawings
-from crankwork.show.dxf import dxf
-from crankwork.show.formats import pdf, png
+from crankwork.show.formats import dxf, pdf, png
 from crankwork.show.scene import Arc, Circle, Drawing, Hatch, Polyline, Text, literal, pen_of, runs, simplified
 from crankwork.show.svg import svg
 from crankwork.show.theme import THEMES, palette_of

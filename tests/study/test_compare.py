@@ -12,9 +12,8 @@ import crankwork
 from crankwork import CrankworkError, NoteOptions
 from crankwork.analysis.compare import comparison_key, difference_key
 from crankwork.note.document import Figure, Heading, Table
-from crankwork.report.comparison import comparison_rows, comparison_text
 from crankwork.report.figures import drawings
-from crankwork.report.tables import sheets
+from crankwork.report.tables import comparison_rows, comparison_text, sheets
 
 MACHINES = Path(__file__).parents[1] / "machines"
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -9,7 +9,7 @@ import pytest
 
 import crankwork
 from crankwork import CrankworkError, Description
-from crankwork.description.numeric_field import numeric_field
+from crankwork.description.document import numeric_field
 from crankwork.report.display import key_unit
 from crankwork.study.solve import solution_data, solution_text
 from crankwork.units import coherent_unit

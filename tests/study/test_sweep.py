@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.description.numeric_field import numeric_field
+from crankwork.description.document import numeric_field
 from crankwork.errors import CrankworkError
 from crankwork.kernel import compiled as compiled_kernels
 from each import for_each

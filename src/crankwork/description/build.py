@@ -204,7 +204,7 @@ def _with_own_gas(
     values: Values, engine: Engine | None, gas: Gas | None, reader: Reader
 ) -> tuple[Engine | None, Gas | None]:
     """Return an engine whose cylinders have different gas, and the gas of the first."""
-    from crankwork.description.cylinder_gas import with_own_gas  # noqa: PLC0415 - few engines have such cylinders
+    from crankwork.description.cycle_build import with_own_gas  # noqa: PLC0415 - few engines have such cylinders
 
     if engine is None:
         keys = (

@@ -520,7 +520,7 @@ def _syntax_message(source: str, name: str, text: str) -> ErrorMessage:
 
 def apply_settings(values: dict[str, Any], overrides: Sequence[str | Setting]) -> list[Setting]:
     """Apply the settings of options to the values, those that follow other numbers last; return them as applied."""
-    from crankwork.description.numeric_field import following, follows_another  # noqa: PLC0415 - needs this module
+    from crankwork.description.document import following, follows_another  # noqa: PLC0415 - needs this module
 
     settings = [override if isinstance(override, Setting) else _setting(override) for override in overrides]
     settings.sort(key=lambda setting: follows_another(setting.value))

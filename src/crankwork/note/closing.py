@@ -21,13 +21,12 @@ from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
-from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.drawing import dimensioned, film_of
 from crankwork.report.look import kind_of
 from crankwork.report.notices import notice_text, plain_assumptions
 from crankwork.report.summary import warning_text
-from crankwork.report.tables import any_nonzero
+from crankwork.report.tables import any_nonzero, comparison_rows, shown_names
 
 _OF_ENGINES = (
     "displacement", "mean_torque.1", "indicated_power.1", "total_torque_max", "total_torque_min", "cylinder_count",

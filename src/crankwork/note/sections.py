@@ -15,9 +15,8 @@ from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import ErrorMessage, Language, translate
 from crankwork.machine import Document
 from crankwork.note import (
-    balance,
-    bearings,
     closing,
+    cylinders,
     data,
     forces,
     gas,
@@ -51,7 +50,7 @@ from crankwork.quantities.quantity import use_numbers
 from crankwork.report.display import for_readers, link_numbers, reader_units
 from crankwork.report.gas import FOUR_STROKE
 from crankwork.report.summary import provenance
-from crankwork.show.dxf import dxf
+from crankwork.show.formats import dxf
 from crankwork.show.formats import pdf as page
 from crankwork.show.svg import svg
 from crankwork.units import use_units
@@ -97,7 +96,7 @@ _CRANK_GEAR: dict[str, tuple[str, ...]] = {
 # every section of a note; of several with one name the first whose condition holds
 SECTIONS: tuple[Section, ...] = (
     *data.SECTIONS, *motion.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
-    *torque.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *closing.SECTIONS,
+    *torque.SECTIONS, *cylinders.SECTIONS, *closing.SECTIONS,
 )  # fmt: skip
 
 

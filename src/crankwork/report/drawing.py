@@ -81,7 +81,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
 
     Lengths are to scale and the motion is exact at each frame. Gas, firing and forces are shown of results. Links have
     the numbers of the structure, or follow group after group where only a mechanism is known. `seconds`: time of a
-    turn; `frames`: of a cycle, else as many as the eye needs; `way`: motion of the crank, that of a transient
+    turn; `frames`: of a cycle, else as many as the eye needs; `path`: motion of the crank, that of a transient
     simulation in its own time; `forces`: whether arrows show those in pins and joints; `still`: the only frame shown;
     `lengths`: measured there.
     """
@@ -168,8 +168,8 @@ def drawn(  # noqa: PLR0913 - what is drawn, and how
 ) -> bytes:
     """Return a machine in a format as it moves, or as it stands.
 
-    `at`: crank angle of a still, or time where a law drives [deg] or [s]; a format that holds no film has one anyway;
-    `told`: is told which part of a film is done.
+    `angle_or_time`: crank angle of a still, or time where a law drives [deg] or [s]; a format that holds no film has
+    one anyway; `progress`: is told which part of a film is done.
     """
     machine = results.machine
     if not machine.moves:

@@ -21,26 +21,23 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import number_of, use_numbers
-from crankwork.report.balance import (
+from crankwork.report.cylinders import (
     balance_ellipses,
     balance_orders,
     balance_polygons,
-    curved_loci,
-    has_polygons,
-    phase_stars,
-    torque_harmonics,
-)
-from crankwork.report.bearings import (
     big_end_polar,
     crankpin_load,
     crankpin_polar,
     crankpin_polar_of_one,
     crankpin_wear,
+    curved_loci,
+    has_polygons,
     main_journal_polar,
     main_wear,
+    phase_stars,
     small_end_polar,
+    torque_harmonics,
 )
-from crankwork.report.comparison import shown_names
 from crankwork.report.display import displayed, for_readers, in_own_units, key_unit, link_numbers, symbol
 from crankwork.report.forces import (
     force_law,
@@ -77,7 +74,7 @@ from crankwork.report.look import (
 )
 from crankwork.report.motion import brix, centrodes, curved_paths, has_centrodes, kinematics, path_figure, tolle
 from crankwork.report.plans import acceleration_plan, position_plans, velocity_plan
-from crankwork.report.tables import any_nonzero
+from crankwork.report.tables import any_nonzero, shown_names
 from crankwork.report.torque import (
     accumulated_torque,
     campbell,

@@ -141,7 +141,7 @@ def drive_graph(
 ) -> Graph:
     """Return a graph over the angle of the crank between the ends of its motion, or over the time, frame drawn.
 
-    `at`: the angles [deg], or times where a law drives [s].
+    `abscissas`: the angles [deg], or times where a law drives [s].
     """
     start, end = float(abscissas[0]), float(abscissas[-1])
     # an axis of one point goes around it

@@ -15,7 +15,6 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import LinkMotor
 from crankwork.quantities import SUBJECTS, Language, subject
-from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.display import (
     display_key,
     displayed,
@@ -28,6 +27,7 @@ from crankwork.report.display import (
     symbol,
 )
 from crankwork.report.notices import assumption_texts, idle_texts, notice_text, screen_lines, sentence_lists
+from crankwork.report.tables import comparison_data, comparison_text
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine

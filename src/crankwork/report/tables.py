@@ -1,17 +1,33 @@
-"""Tables of results, and as CSV."""
+"""Tables of results, and as CSV; results beside others, as a table, as text and as plain data."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array, Results
+from crankwork.analysis.compare import Comparison
 from crankwork.analysis.rounding_noise import without_rounding
-from crankwork.report.comparison import comparison_columns
-from crankwork.report.display import displayed_column, in_own_units, key_unit
+from crankwork.locale import Language, translate
+from crankwork.locale.numbers import number, unit_name
+from crankwork.report.display import (
+    display_key,
+    displayed,
+    displayed_column,
+    in_own_units,
+    key_unit,
+    label,
+    method_name,
+    rounded,
+)
+
+_NONE = "–"
+# of a value, what is no difference
+_ROUNDING = 1e-12
 
 
 def table_column(results: Results, key: str, *, per_area: bool = False) -> Array:
@@ -83,3 +99,100 @@ def _number(value: float | str, *, for_excel: bool) -> str:
 def _quoted(heading: str) -> str:
     """Return a heading as CSV has it: names of joints are the user's and may hold separators and quotes."""
     return '"' + heading.replace('"', '""') + '"' if any(mark in heading for mark in ',;"') else heading
+
+
+@in_own_units
+def comparison_columns(results: Results, *, per_area: bool = False) -> dict[str, Array]:
+    """Return the table of a comparison in display units: crank angle, and each column by each name with differences."""
+    compared = results.compared
+    if compared is None or not compared.keys:
+        return {}
+    area = results.summary["piston_area"] if per_area else None
+    first: dict[str, Array] = {"crank_angle": results.grid.degrees}
+    if "time" in results.columns:
+        first = {"time": results.columns["time"]}
+    return first | {key: values * displayed(key, 1.0, per_area=area) + 0.0 for key, values in compared.columns.items()}
+
+
+@in_own_units
+def comparison_rows(results: Results, *, per_area: bool = False) -> dict[str, tuple[float, ...]]:
+    """Return single values in display units by key: the own one, and for each other its value and the difference."""
+    if results.compared is None:
+        return {}
+    areas = [compared.summary["piston_area"] if per_area else None for compared in (results, *results.compared.others)]
+    rows = {}
+    for key, values in results.compared.values(results).items():
+        own, *further = (displayed(key, value, per_area=area) for value, area in zip(values, areas, strict=True))
+        rows[key] = (own, *(shown for other in further for shown in (other, _less(other, own))))
+    return rows
+
+
+def _less(other: float, own: float) -> float:
+    """Return the difference of two values, zero where only rounding is left."""
+    return 0.0 if abs(other - own) <= _ROUNDING * abs(own) else other - own
+
+
+@in_own_units
+def comparison_text(results: Results, language: Language = "en", *, per_area: bool = False) -> str:
+    """Return the single values beside those of the others as aligned text."""
+    compared = results.compared
+    if compared is None:
+        return ""
+    own, *names = compared.names
+    titles = [
+        own,
+        *(title for name in names for title in (name, translate("report.less", language, name=name, other=own))),
+    ]
+    table = [["", "", *titles]]
+    for key, values in comparison_rows(results, per_area=per_area).items():
+        unit = unit_name(key_unit(key, per_area=per_area), language)
+        name = label(display_key(key, results) if key in results.trace else key, language)
+        table.append([name, unit, *(_shown(value, language) for value in values)])
+    return "\n".join([translate(_heading(compared), language), *_aligned(table)])
+
+
+def _heading(compared: Comparison) -> str:
+    return "report.methods_compared" if compared.is_of_methods else "report.machines_compared"
+
+
+def _shown(value: float, language: Language) -> str:
+    return _NONE if math.isnan(value) else number(value, language)
+
+
+def _aligned(table: list[list[str]]) -> list[str]:
+    wide = [max(len(row[index]) for row in table) for index in range(len(table[0]))]
+    sides = "<<" + ">" * (len(wide) - 2)
+    return [
+        "  " + "  ".join(f"{cell:{side}{w}}" for cell, side, w in zip(row, sides, wide, strict=True)).rstrip()
+        for row in table
+    ]
+
+
+@in_own_units
+def comparison_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
+    """Return the single values of the others, and how far they are above the own ones, as plain data."""
+    if results.compared is None:
+        return {}
+    own, *other_names = results.compared.names
+    rows = comparison_rows(results, per_area=per_area)
+
+    def plain(value: float) -> float | None:
+        return None if math.isnan(value) else rounded(value)
+
+    each = {
+        name: {
+            key: {"value": plain(values[2 * index + 1]), "difference": plain(values[2 * index + 2]),
+                  "unit": key_unit(key, per_area=per_area)}
+            for key, values in rows.items()
+        }
+        for index, name in enumerate(other_names)
+    }  # fmt: skip
+    return {"comparison": {"own": own, "others": each}}
+
+
+def shown_names(compared: Comparison, language: Language) -> list[str]:
+    """Return the names of what is compared: methods in words, machines by the names of their files."""
+    if not compared.is_of_methods:
+        return list(compared.names)
+    parts = [name.partition(":") for name in compared.names]
+    return [method_name(kind, int(order or 0), "", language) for kind, _, order in parts]

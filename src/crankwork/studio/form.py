@@ -11,10 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.description.document import Description
+from crankwork.description.document import Description, single_kind
 from crankwork.description.keys import LOADING
 from crankwork.description.machine_file import entry_at, file_keys, idle_keys, parse, steps_of, template, template_names
-from crankwork.description.numeric_field import single_kind
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
 from crankwork.description.shorthand import linkage_of
 from crankwork.description.toml_edit import toml, with_table_entry

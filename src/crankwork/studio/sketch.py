@@ -16,9 +16,8 @@ from itertools import takewhile
 from typing import Any, NamedTuple
 from urllib.parse import unquote
 
-from crankwork.description.document import Description
+from crankwork.description.document import Description, kind_of
 from crankwork.description.keys import LOADING
-from crankwork.description.numeric_field import kind_of
 from crankwork.description.toml_edit import document, with_table_entry
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError, InputError

@@ -15,9 +15,8 @@ import numpy as np
 
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.requested_values import with_requested
-from crankwork.description.document import Description
+from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import Input
 from crankwork.kinematics.crank_grid import Array

@@ -86,7 +86,6 @@ class RootSearchResult(NamedTuple):
     without: tuple[Interval, ...]
     zero: tuple[Interval, ...]
     nearest: Sample | None
-    evaluations: int
 
 
 def find_roots(
@@ -114,7 +113,7 @@ class _Search:
     """One search: its samples and the tolerance of zero."""
 
     def __init__(self, function: Callable[[float], float], places: Array, size: float) -> None:
-        self._function, self._places, self._evaluations = function, places, 0
+        self._function, self._places = function, places
         self._width = float(places[-1] - places[0])
         self._size, self._zero = size, 0.0
 
@@ -141,13 +140,10 @@ class _Search:
             near += run
         nearest = min(near, key=lambda sample: abs(sample.value), default=None)
         without = tuple(Interval(run[0].at, run[-1].at, run[0].reason) for run in runs if run[0].reason)
-        return RootSearchResult(
-            tuple(_distinct_roots(roots, self._width)), tuple(sorted(jumps)), without, tuple(zero), nearest,
-            self._evaluations,
-        )  # fmt: skip
+        distinct = tuple(_distinct_roots(roots, self._width))
+        return RootSearchResult(distinct, tuple(sorted(jumps)), without, tuple(zero), nearest)
 
     def _sample(self, place: float) -> Sample:
-        self._evaluations += 1
         try:
             value = self._function(place)
         except CrankworkError as error:

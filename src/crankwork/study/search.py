@@ -16,9 +16,8 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.description.document import Description
+from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.gradient import part_key

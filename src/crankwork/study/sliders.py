@@ -9,9 +9,8 @@ from contextlib import suppress
 import numpy as np
 
 from crankwork.analysis import Results, analyse
-from crankwork.description.document import Description
+from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.description.value_types import shown
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array

@@ -11,9 +11,8 @@ import numpy as np
 
 from crankwork.analysis import Results, analyse, columns_only, value_only
 from crankwork.analysis.requested_values import place_of, with_requested
-from crankwork.description.document import Description
+from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array

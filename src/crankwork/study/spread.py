@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.requested_values import with_requested
-from crankwork.description.document import Description
+from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.description.value_types import DEVIATIONS_OF_TOLERANCE
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array

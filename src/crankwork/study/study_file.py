@@ -13,9 +13,16 @@ from typing import Any, NamedTuple, get_args
 from crankwork import __version__, files
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.requested_values import with_requested
-from crankwork.description.document import Description, load, stated_value
+from crankwork.description.document import (
+    Description,
+    NumericField,
+    kind_of,
+    load,
+    numeric_field,
+    single_kind,
+    stated_value,
+)
 from crankwork.description.machine_file import Setting, input_error, parse, schema_text
-from crankwork.description.numeric_field import NumericField, kind_of, numeric_field, single_kind
 from crankwork.description.schema import KeySpec, MapOf, OneOrMore, TableSpec, Values
 from crankwork.description.value_types import Choice, Flag, MeasuredValue, Number, Reader, Text, shown
 from crankwork.errors import CrankworkError

@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.requested_values import with_requested
-from crankwork.description.document import Description
+from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import CONVERGED, BatchResult, Kernel
 from crankwork.kernel.lowering import NotCompiledError

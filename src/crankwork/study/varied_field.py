@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork import units
+from crankwork.description.document import NumericField
 from crankwork.description.machine_file import Setting
-from crankwork.description.numeric_field import NumericField
 from crankwork.description.value_types import shown
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
