@@ -88,7 +88,7 @@ def _command(words: tuple[str, ...]) -> list[str]:
 def _run(words: tuple[str, ...], folder: Path) -> tuple[int, str]:
     """Return the exit status and what was said beside the results; what goes on is stopped and counts as success."""
     try:
-        timeout = 6 if words[0] == "studio" else 300
+        timeout = 20 if words[0] == "studio" else 300
         ended = subprocess.run(
             _command(words), cwd=folder, capture_output=True, text=True, check=False, timeout=timeout
         )
