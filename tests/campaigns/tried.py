@@ -62,7 +62,7 @@ CAPABILITIES = {
     "one number sought": _capability("", "solve my.toml mean_torque=0 --for crank.speed"),
     "tolerances": _capability("", "spread my.toml mean_torque --set crank.radius=42.5±0.1mm --samples 100"),
     "workbook": _capability("tables all", "run my.toml -o results", "results/tables.xlsx"),
-    "heat release": _capability("dynamics data fast all", "run wiebe.toml"),
+    "heat release": _capability("dynamics data all", "run wiebe.toml"),
     "several numbers sought": _capability(
         "dynamics data all", "solve my.toml stroke=90mm side_force_max=3kN --for crank.radius --for rod.length"
     ),
