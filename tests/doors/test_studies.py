@@ -194,6 +194,16 @@ def test_a_study_without_what_reads_its_parts_says_what_to_install(study, check_
     check_refusals([(("sweep", study(), "-o", "out"), told)])
 
 
+def test_a_search_without_scipy_says_what_to_install(study, check_refusals, monkeypatch):
+    monkeypatch.setattr("crankwork.errors.find_spec", lambda name: None if name == "scipy" else name)
+    two = ("stroke=90mm", "piston_velocity_max=14m/s", "--for", "crank.radius", "--for", "crank.speed")
+    told = "needs an optional part; install it with: pip install"
+    check_refusals([
+        (("optimise", study(SEARCH), "-o", "out"), f"a study {told}"),
+        (("solve", "machine.toml", *two), f"solving for several numbers {told}"),
+    ])  # fmt: skip
+
+
 def test_a_number_in_the_place_of_a_table_is_told(crankwork, study):
     for table in ("designs", "vary", "objectives", "limits", "search"):
         name = study(f'{table} = 3\nmachine = "machine.toml"\n')

@@ -18,13 +18,12 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
-from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.errors import CrankworkError, MissingExtraError, UnknownKeyError, missing_extras
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.gradient import part_key
 from crankwork.kernel.lowering import NotCompiledError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
-from crankwork.report.dataset import check_extras
 from crankwork.study.variants import MachineVariants, single, threaded
 from crankwork.study.varied_field import level, stated_limit
 from crankwork.units import System
@@ -198,6 +197,7 @@ class DesignSpace:
 
     def sample(self, count: int) -> Array:
         """Return points spread evenly between the bounds, shape (count, fields)."""
+        check_scipy(ErrorMessage("extra_study"))
         from scipy.stats import qmc  # noqa: PLC0415 - an optional part
 
         return np.asarray(qmc.LatinHypercube(self.low.size, rng=np.random.default_rng(self._seed)).random(count))
@@ -433,9 +433,15 @@ class Problem:
         return np.array(changes)
 
 
+def check_scipy(capability: ErrorMessage) -> None:
+    """Raise unless SciPy is installed."""
+    if extras := missing_extras({"scipy": "dynamics"}):
+        raise MissingExtraError(capability, *extras)
+
+
 def _scipy() -> Any:  # noqa: ANN401 - its stubs know fewer ways to call it than there are
     """Return scipy.optimize."""
-    check_extras("scipy")
+    check_scipy(ErrorMessage("extra_study"))
     from scipy import optimize  # noqa: PLC0415 - an optional part
 
     return optimize

@@ -21,7 +21,7 @@ from crankwork.locale.numbers import aligned, number, unit_name
 from crankwork.machine import Machine
 from crankwork.report.display import displayed, key_unit, label, rounded
 from crankwork.study.roots import Interval, Jump, Root, RootSearchResult, Sample, find_roots
-from crankwork.study.search import DesignSpace
+from crankwork.study.search import DesignSpace, check_scipy
 from crankwork.study.study_text import value_text, with_unit
 from crankwork.study.variants import single
 from crankwork.study.varied_field import SearchPoints, level, search_points
@@ -497,7 +497,8 @@ def solve_several(  # noqa: PLR0913 - equations, unknowns and options of the sea
     CrankworkError
         If an equation or a number is invalid for this file, or there are not as many of both.
     """
-    from scipy.optimize import least_squares  # noqa: PLC0415 - slow to import
+    check_scipy(ErrorMessage("extra_solve"))
+    from scipy.optimize import least_squares  # noqa: PLC0415 - an optional part
 
     if len(equations) != len(unknowns) or len(set(unknowns)) < len(unknowns) or len(unknowns) > _MAX_UNKNOWNS:
         raise CrankworkError(ErrorMessage("solve_counts", equations=len(equations), unknowns=len(unknowns)))
