@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "7e211c10f06b",
     "formulas": "eef1fe41620d",
-    "quantities": "6427b196b7b1",
+    "quantities": "cc71e3d70c44",
     "defaults": "56d384bb604c",
 }
 
