@@ -267,3 +267,21 @@ def test_stages_of_chambers() -> None:
     larger = analysed(machine.replace("{bore}", "190"))
     assert [one.code for one in larger.notices].count("stage_flow") == 1
     assert larger["stage_flow_error.2"] == pytest.approx((190 / 184.676103375) ** 2 - 1, rel=1e-9)
+
+
+def test_sizes_beside_a_delivery_give_the_clearance() -> None:
+    """Four fifths of what 200 mm over 300 mm sweep 5 times a second; expansion by a square root of 9."""
+    swept = math.pi / 4 * 0.2**2 * 0.3 * 5
+    results = analysed(f"""
+        crank.speed = "300 rpm"
+        [stages]
+        suction = "1 bar"
+        discharge = "9 bar"
+        exponent = 1.3
+        expansion_exponent = 2
+        bore = "200 mm"
+        stroke = "300 mm"
+        flow = "{0.8 * swept!r} m3/s"
+    """)
+    # 0.2 = k (sqrt(9) - 1)
+    assert results["clearance_ratio.1"] == pytest.approx(0.1, rel=1e-9)

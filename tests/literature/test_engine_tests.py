@@ -220,6 +220,16 @@ def test_what_books_do_not_print_by_hand() -> None:
     assert {key: results[key] for key in known} == pytest.approx(known, rel=1e-12)
 
 
+def test_the_relative_efficiency_is_against_the_cycle_of_otto() -> None:
+    """Compressed 32 times, 32^0.4 = 4: three quarters of the heat; 0.3 of 40 kW indicated."""
+    results = of_file(
+        'test = { indicated_power = "12 kW", fuel_rate = "3.6 kg/h", fuel_heating_value = "40 MJ/kg", '
+        "compression_ratio = 32 }"
+    )
+    assert results["thermal_efficiency"] == pytest.approx(0.75, rel=1e-12)
+    assert results["relative_efficiency"] == pytest.approx(0.4, rel=1e-12)
+
+
 def test_nothing_that_follows_is_refused() -> None:
     with pytest.raises(crankwork.errors.InputError, match=r"test\.fuel_density: says nothing without test\.fuel_flow"):
         of_file('test = { fuel_density = "800 kg/m3" }')

@@ -831,6 +831,7 @@ _TESTED: dict[Any, tuple[str, ...]] = {
     Quantity(("pressure_by_velocity",), 0.0, 1e6): ("mechanical_loss_slope",),
     Quantity(("pressure_by_square_velocity",), 0.0, 1e5): ("mechanical_loss_square",),
     Number(0.0, 1.0): ("mechanical_loss_share",),
+    Number(1.0, 100.0, above=True): ("compression_ratio",),
     Number(0.0, 1.0, above=True): ("mechanical_efficiency", "discharge_coefficient"),
 }  # fmt: skip
 TEST = TableSpec("test", {
@@ -841,6 +842,7 @@ TEST = TableSpec("test", {
     "coolant_heat": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), default="4186.8 J/(kg*K)",
                             only={"coolant_rate": ()}),
     "exhaust_heat": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), default="1005 J/(kg*K)", only={"exhaust_rise": ()}),
+    "heat_ratio": KeySpec(Number(1.0, 2.0, above=True), default=1.4, only={"compression_ratio": ()}),
 })  # fmt: skip
 
 METHOD = TableSpec("method", {

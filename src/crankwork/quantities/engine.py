@@ -179,6 +179,7 @@ CYCLE = (
     # results of the cycle
     Quantity("theoretical_mean_pressure", "MPa", "Work of the theoretical diagram over the swept volume."),
     Quantity("indicated_efficiency", "", "Indicated work over the heat of the fuel."),
+    Quantity("relative_efficiency", "", "Indicated efficiency over that of the ideal cycle."),
     Quantity("indicated_fuel_consumption", "g/(kW*h)", "Fuel per indicated work."),
     Quantity("mechanical_loss_pressure", "MPa", "Work of mechanical losses over the swept volume."),
     Quantity("mechanical_loss_constant", "MPa", "Pressure of mechanical losses without speed."),

@@ -17,6 +17,7 @@ from crankwork.loads.gas import piston_area, swept_volume
 from crankwork.notation import ARGUMENTS
 from crankwork.working_cycle import engine_size
 from crankwork.working_cycle.charge import charge_density
+from crankwork.working_cycle.ideal import otto_efficiency
 
 # what stated values of the same thing may differ by [-]
 _SAME = 1e-6
@@ -25,7 +26,7 @@ _TEXT, _AIR = "heywood_1988, ch. 2", "heywood_1988, ch. 13"
 MEASURED = {
     "cylinders": "cylinder_count", "strokes": "strokes_per_cycle", "air_rate": "gas_mass_flow",
     "air_pressure": "charge_pressure", "air_temperature": "charge_temperature", "peak_pressure": "cylinder_pressure",
-    "discharge_coefficient": "orifice_coefficient",
+    "discharge_coefficient": "orifice_coefficient", "heat_ratio": "gas_heat_ratio",
 }  # fmt: skip
 # what may be left out, with its neutral value
 _NEUTRAL = {
@@ -188,8 +189,9 @@ _RULES = (
     engine_size.effective_mean_pressure, (power_of_mean_pressure, "effective"), indicated_of_brake, brake_of_indicated,
     mean_pressure_of_power, (mean_pressure_of_power, "effective"), efficiency_of_powers, mechanical_loss_power,
     torque_of_power, fuel_of_volume, engine_size.fuel_rate, consumption_of_power, (consumption_of_power, "indicated"),
-    engine_size.heat_supplied, (efficiency_of_powers, "effective"), (efficiency_of_powers, "indicated"), charge_density,
-    orifice_flow, measured_volumetric_efficiency, air_fuel_ratio, heat_of_coolant, heat_of_exhaust, speed_droop,
+    engine_size.heat_supplied, (efficiency_of_powers, "effective"), (efficiency_of_powers, "indicated"),
+    otto_efficiency, (efficiency_of_powers, "relative"), charge_density, orifice_flow, measured_volumetric_efficiency,
+    air_fuel_ratio, heat_of_coolant, heat_of_exhaust, speed_droop,
 )  # fmt: skip
 # of formulas that are used for several quantities: what their result and their arguments then are
 _OTHERS: dict[tuple[str, str], dict[str, str]] = {
@@ -199,6 +201,9 @@ _OTHERS: dict[tuple[str, str], dict[str, str]] = {
     ("efficiency_of_powers", "effective"): {"": "effective_efficiency", "N_ind": "heat_supplied"},
     ("efficiency_of_powers", "indicated"): {
         "": "indicated_efficiency", "N_e": "indicated_power", "N_ind": "heat_supplied",
+    },
+    ("efficiency_of_powers", "relative"): {
+        "": "relative_efficiency", "N_e": "indicated_efficiency", "N_ind": "thermal_efficiency",
     },
 }  # fmt: skip
 
