@@ -38,6 +38,8 @@ from crankwork.quantities.key import key_of
 _BALANCE = "den_hartog_1956, ch. 5"
 # share of the largest force below which one is not seen beside it
 _SEEN = 0.05
+# what the orders of a turn are of, and what of them is rounding
+_OF_TURN, _NOISE = {"free_force": "shaking_force", "shaking_moment_amplitude": "shaking_moment"}, 1e-9
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _OF_ORDERS = (
     "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force", "moment_factor", "free_moment",
@@ -50,14 +52,16 @@ def _orders(material: Material) -> Iterator[Block]:
     """Yield the table of the free forces of each order."""
     words, summary = material.words, material.results.summary
     orders = named(summary, "free_force")
-    yield words.paragraph("free_forces", table=Reference("t:orders"))
+    limits = {kind: _NOISE * float(np.max(np.abs(material.columns.get(of, 0.0)))) for kind, of in _OF_TURN.items()}
     kinds = [kind for kind in ("free_force", "shaking_moment_amplitude") if named(summary, kind)]
     sizes = [
         words.column_texts(
-            in_display_unit(kind, [summary[key] for key in named(summary, kind)]), digits=material.digits
+            in_display_unit(kind, [summary[key] * (summary[key] > limits[kind]) for key in named(summary, kind)]),
+            digits=material.digits,
         )
         for kind in kinds
     ]
+    yield words.paragraph("free_forces", table=Reference("t:orders"))
     rows = list(zip((key_of(key).owner for key in orders), *sizes, strict=True))
     titles: list[str | Runs] = ["order_of_turn", *(words.titled(kind) for kind in kinds)]
     yield words.table("linkage_orders", titles, rows, "c" + "r" * len(kinds), "t:orders")
