@@ -52,7 +52,9 @@ def _orders(material: Material) -> Iterator[Block]:
     """Yield the table of the free forces of each order."""
     words, summary = material.words, material.results.summary
     orders = named(summary, "free_force")
-    limits = {kind: _NOISE * float(np.max(np.abs(material.columns.get(of, 0.0)))) for kind, of in _OF_TURN.items()}
+    limits = {
+        kind: _NOISE * float(np.max(np.abs(material.columns.get(column, 0.0)))) for kind, column in _OF_TURN.items()
+    }
     kinds = [kind for kind in ("free_force", "shaking_moment_amplitude") if named(summary, kind)]
     sizes = [
         words.column_texts(
