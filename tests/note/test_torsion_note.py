@@ -1,10 +1,15 @@
 """The note of a torsional system: what it shows without being asked for everything."""
 
-from crankwork.note.document import Figure, Paragraph, Table
+import math
+from pathlib import Path
+
+from crankwork import analyse, load
+from crankwork.note.document import Figure, ItemList, Paragraph, Table
 from crankwork.note.options import NoteOptions
 from crankwork.note.sections import note_of_sections
 from machine_texts import analysed
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 FORCED = """
 crank.speed = "300 rpm"
 [torsion]
@@ -30,3 +35,23 @@ def test_it_has_figures_one_table_by_holzer_and_the_largest_vibration():
     assert " = 8.205° (B, 228.9\u00a0rpm)" in said
     assert not any("throw" in text for text in said)
     assert "critical speeds" in made.blocks[0].below[-1]
+
+
+def test_the_lowest_frequency_has_its_digits_and_the_conclusion_tells_the_vibration():
+    found = analyse(load(EXAMPLES / "vibrating-crankshaft.toml"))
+    made = note_of_sections(found, NoteOptions(language="en", figures=False))
+    tables = {block.label: block.rows for block in made.blocks if isinstance(block, Table)}
+    assert tables["natural_modes"][0][1] == f"{found.summary['natural_frequency.1'] / (2 * math.pi):.2f}"
+    # nodes of the modes that are drawn, of no others
+    assert {row[0] for row in tables["torsional_nodes"]} == {"1", "2", "3", "4"}
+    assert len(tables["holzer"][0]) == 7
+    (items,) = [block.items for block in made.blocks if isinstance(block, ItemList)][-1:]
+    told = " ".join(run for item in items for run in item if isinstance(run, str))
+    assert all(part in told for part in ("30.48", "914.3", "crank 1"))
+
+
+def test_main_results_stand_in_one_table():
+    made = note_of_sections(analysed(FORCED), NoteOptions(language="en", figures=False))
+    labels = [block.label for block in made.blocks if isinstance(block, Table)]
+    assert labels.count("t:glance") == 1
+    assert "t:summary" not in labels

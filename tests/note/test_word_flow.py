@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from crankwork.note.document import Figure, Heading, PageBreak, Paragraph, Table
+from crankwork.formula.calculation_lines import ValueLine
+from crankwork.note.document import Equation, Figure, Heading, PageBreak, Paragraph, Table
 from crankwork.note.numbering import PAGE, flow
 from crankwork.show.scene import Drawing
 
@@ -21,6 +22,12 @@ def test_a_figure_without_room_waits_until_text_has_filled_the_page():
     assert _order(*placed) == [0, 2, 3, 1, 4]
     # a page that begins anew waits for no figure
     assert _order((TEXT, 400.0), (FIGURE, 400.0), (BREAK, 0.0), (TEXT, 10.0)) == [0, 1, 2, 3]
+
+
+def test_no_derivation_is_divided_by_a_table():
+    line = Equation(ValueLine("speed", 1.0))
+    placed = (TEXT, 600.0), (TABLE, 200.0), (line, 60.0), (line, 60.0), (line, 60.0), (TEXT, 30.0)
+    assert _order(*placed) == [0, 2, 3, 4, 1, 5]
 
 
 def test_figures_keep_their_order_and_no_heading_is_parted_from_its_text():

@@ -201,7 +201,8 @@ def _parts(step: Line | Formula, language: Language, least: int, ends: list[tupl
         case DelayedLine(of=column, degrees=degrees):
             yield row(symbol_box(value_symbol(column, language)), Fence(value_box(degrees, "deg", language)))
         case SumLine(terms=terms):
-            if len(terms) <= _MANY:
+            # terms without a name are numbers only
+            if len(terms) <= _MANY and all(term.key for term in terms):
                 yield _sum_of_symbols(step, language)
             if len(terms) > 1:
                 digits = enough_digits(step, least)
@@ -224,7 +225,7 @@ def symbolic(step: Line, language: Language) -> Box | None:
     match step:
         case FormulaLine():
             return formula_of(step, language)
-        case SumLine(terms=terms) if len(terms) > 1:
+        case SumLine(terms=terms) if len(terms) > 1 and all(term.key for term in terms):
             return _sum_of_symbols(step, language)
     return None
 

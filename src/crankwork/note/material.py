@@ -68,7 +68,7 @@ ESSENTIAL = frozenset((
     "slider_acceleration", "link_inertia_force", "link_inertia_torque", "joint_force", "normal_force", "driver_force",
     "driver_displacement", "driver_velocity", "reduced_inertia", "reduced_inertia_1", "reduced_torque",
     "static_torque", "dynamic_torque", "balancing_torque", "driving_torque", "shaking_force", "motor_power",
-    "total_reduced_inertia", "motor_ratio", "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle",
+    "motor_ratio", "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle",
     "turning_moment", "stroke_work", "shearing_force", "rim_mass", "efficiency", "free_air_delivery",
     "clearance_volumetric_efficiency",
     "needed_stages", "stage_pressure_ratio", "stage_flow", "stage_power", "stage_saving", "cylinder_heat",

@@ -76,6 +76,8 @@ _OFF = 0.01
 _TURNED, _TURNED_END = "#page(flipped: true)[\n", "\n]"
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
+# letters of an entry that has room for its words whatever stands beside it
+_SHORT = 12
 # columns of a table whose parts stand side by side
 _SEVERAL_PARTS = 8
 # height of a line of a table [em], and what is free above and below it [pt]
@@ -166,7 +168,7 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
         case TitlePage():
             yield _title_page(block, note)
         case Bibliography():
-            yield "#enum(" + ", ".join(typst_string(cite(key)) for key in numbers.sources) + ")"
+            yield "#enum(spacing: 0.6em, " + ", ".join(typst_string(cite(key)) for key in numbers.sources) + ")"
 
 
 def _runs(runs: Runs, numbers: Numbering) -> str:
@@ -259,7 +261,7 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
         # words have the room that symbols and numbers leave, those of long entries more of it
         longest = [max((len(cell) for cell in column if isinstance(cell, str) and " " in cell), default=0)
                    for column in zip(*block.rows, strict=True)]  # fmt: skip
-        return f"columns: ({', '.join(f'{length}fr' if length else 'auto' for length in longest)},)"
+        return f"columns: ({', '.join(f'{max(length, _SHORT)}fr' if length else 'auto' for length in longest)},)"
     columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):
         return columns

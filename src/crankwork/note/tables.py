@@ -17,7 +17,7 @@ from crankwork.locale import has_text
 from crankwork.note.captions import printed_unit
 from crankwork.note.document import Block, Cell, Math, Run, Runs, Strong, Table
 from crankwork.note.material import Material
-from crankwork.note.table_width import SIZES, fits
+from crankwork.note.table_width import PAGE, SIZES, fits, one_line_widths
 from crankwork.note.wording import Words
 from crankwork.report.display import displayed, key_unit, label, row_name
 
@@ -28,6 +28,8 @@ _MOST = 9
 # angles that are the same [deg], and what is rounding, as a share of the largest value of a column
 _NEAR = 1e-9
 _NOISE = 1e-9
+# how much wider than a page the lines of a table in parts may be
+_ABOUT = 1.2
 # rows and steps of a short table
 _FEW, _STEPS = 13, 12
 
@@ -190,7 +192,10 @@ def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words, pa
         entries = [row[: len(titles)] for row in entries]
     if any(len(row) > len(titles) for row in entries):
         titles.append((words.column("at") + " ", words.place(0.0)[0]))
-    return folded(words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}"), parts, _FEW)
+    table = words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}")
+    halves = folded(table, parts, _FEW)
+    # names in many short lines beside each other take more room than below each other
+    return halves if one_line_widths(halves.headings, halves.rows, SIZES[-1], _ABOUT * PAGE) else table
 
 
 def symbol_table(meanings: Sequence[tuple[Cell, str]], words: Words) -> Table:

@@ -412,6 +412,12 @@ def _over_cycle(material: Material) -> Iterator[Block]:
     return material.presented([table], used)
 
 
+def _whole_inertia(material: Material) -> list[Block]:
+    """Return how the parts of a crank gear are reduced, and the sum of those of all cylinders."""
+    parts = [line for line in material.lines("reduction", "reduced_inertia") if isinstance(line, FormulaLine)]
+    return material.worked([*parts, *material.lines("engine_torque", "total_reduced_inertia")])
+
+
 def _exact_work(material: Material) -> Math:
     return Math(material.words.symbol("excess_work.exact"))
 
@@ -595,8 +601,7 @@ SECTIONS = (
         When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact", {"work": _exact_work}),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), When(either(full, lacks(_IS_EXACT)), (Lines("uniformity"),)),
         When(_IS_EXACT, (
-            At("reduction"), Lines("reduction", ("reduced_inertia",)),
-            Lines("engine_torque", ("total_reduced_inertia",)), *_FOUND,
+            At("reduction"), _whole_inertia, *_FOUND,
         )),
         _over_cycle,
         When(every(full, ONE), HARMONICS),

@@ -222,7 +222,8 @@ class _Writer:
 
     def worked(self, part: PlanVector) -> Iterator[Row]:
         """Yield what goes with a part of a relative velocity or acceleration: its size, or the rate of its link."""
-        size, rate, name = abs(part.drawn) * self._scale, abs(self._rates.get(part.link, 0.0)), self._name(part)
+        length, rate, name = abs(part.drawn), abs(self._rates.get(part.link, 0.0)), self._name(part)
+        size = length * self._scale if length > _NOISE else 0.0
         match part.kind:
             case "normal":
                 yield self._normal(name, part, rate)

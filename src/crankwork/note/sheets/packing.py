@@ -38,6 +38,8 @@ _SCALES = tuple(0.3 * 1.16**step for step in range(21))
 # how much higher than in a text it is, for its width, and still looks as it should
 _HIGHEST = 1.6
 _GAP, _FEW, _CLEAR = 7.0, 2, 0.3
+# below the cell in the corner [mm]
+_BELOW = 4.0
 # width of a graph over the crank angle at least [mm]
 _READABLE = 70.0
 _SYMBOL = re.compile(r"/\{([^{}]+)\}([′″]*)")
@@ -125,9 +127,9 @@ def finished(fit: Fit, field: ChartBox, corner: ChartBox) -> Fit:
     left = min(max(left, field.left), field.right - complete.ink.width)
     placed = _at(complete, left, top)
     words = [extent(item._replace(wide=WIDER)) for item in placed.drawing.items if isinstance(item, Text)]
-    into = max((word.top - corner.bottom for word in words if word.left < corner.right), default=0.0)
+    into = max((word.top - corner.bottom + _BELOW for word in words if word.left < corner.right), default=0.0)
     # a heading does not touch the cell in the corner
-    return placed if into <= 0 else _at(complete, left, top - into - _CLEAR)
+    return placed if into <= 0 else _at(complete, left, top - into)
 
 
 def _columns(field: ChartBox, taken: tuple[ChartBox, ChartBox], layout: Layout) -> Iterator[ChartBox]:
@@ -136,7 +138,7 @@ def _columns(field: ChartBox, taken: tuple[ChartBox, ChartBox], layout: Layout) 
     for share in layout:
         width = share * (field.width + _GAP) - _GAP
         foot = block.top + _GAP - field.bottom if block.width and left + width > block.left else 0.0
-        head = max(field.top - corner.bottom, 0.0) if left < corner.right else 0.0
+        head = max(field.top - corner.bottom + _BELOW, 0.0) if left < corner.right else 0.0
         yield ChartBox(left, field.bottom + foot, width, field.height - foot - head)
         left += width + _GAP
 
