@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from crankwork.analysis import Results
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
@@ -203,6 +204,20 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
     return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
 
 
+def main_keys(results: Results) -> list[str]:
+    """Return the keys of the single values that matter most, in their order."""
+    summary = results.summary
+    if results.machine.rotor is not None:
+        keys = [
+            key for key in summary if not key.startswith(("speed", "reciprocating_moment", "plane_moment", "rotor_"))
+        ]
+        return keys or list(summary)
+    # a linkage has a joint there
+    numbers = [kind for kind in _NUMBERS if "piston_displacement" in results.columns or kind != "crankpin_load_max"]
+    return [key for kind in numbers for key in _of(kind, summary)
+            if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
+
+
 def _at_a_glance(material: Material) -> Iterator[Block]:
     """Yield the machine as it stands, the results that matter most, and whether the checks hold."""
     results, words, summary = material.results, material.words, material.results.summary
@@ -232,15 +247,7 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         ]
         still = dimensioned(film, *own) if len(own) == _BOTH else film.still()
         yield Figure(still, caption, film.about or title, label="f:machine", high=_HIGHEST)
-    # a linkage has a joint there
-    numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
-    keys = [key for kind in numbers for key in _of(kind, summary)
-            if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
-    if material.machine.rotor is not None:
-        keys = [
-            key for key in summary if not key.startswith(("speed", "reciprocating_moment", "plane_moment", "rotor_"))
-        ]
-        keys = keys or list(summary)
+    keys = main_keys(results)
     if film is None:
         yield words.paragraph("main_results", table=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)

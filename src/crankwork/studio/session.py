@@ -30,7 +30,7 @@ from crankwork.note.contents import note_of, sheets_of, written_note
 from crankwork.note.explain import place_text
 from crankwork.note.interactive import controls, page_data
 from crankwork.note.options import NoteOptions
-from crankwork.page.document import TraceExport, follow, page, sentences, tables, values
+from crankwork.page.document import TraceExport, cards, follow, page, sentences, tables, title_of, values
 from crankwork.page.sliders import FAINT, LivePage, Slider, scale
 from crankwork.quantities.key import key_of
 from crankwork.report.display import in_own_units, key_unit
@@ -42,6 +42,7 @@ from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
 from crankwork.show.alt_text import alt_text
 from crankwork.show.animation import Animation
+from crankwork.show.chart_layout import SCREEN, use_layout
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
 from crankwork.show.scene import Drawing
@@ -267,6 +268,7 @@ class Session:
         update = self._drawn(results, request.get("figures") or (), film, only_read=True)
         return update if film is None else update | {"film": inline_film(film, "machine")}
 
+    @use_layout(SCREEN)
     def _drawn(
         self, results: Results, wanted: Collection[str], film: Animation | None, *, only_read: bool = False
     ) -> dict[str, Any]:
@@ -290,7 +292,8 @@ class Session:
         seen["data"]["tables"] = tables(results, seen["data"], language)
         warning = warning_text(results, language)
         return {
-            **seen, "title": results.machine.title, "method": results_method(results, language),
+            **seen, "title": title_of(results, language),
+            "cards": "".join(cards(results, results.trace, language)), "method": results_method(results, language),
             "dyads": dyads(results.machine) if results.machine.linkage else [], "places": _places(results),
             "names": {name: figure_title(name, language) for name in names},
             "values": "".join((*values(results, results.trace, language), *sentences(results, language))),
@@ -405,6 +408,7 @@ def opened_share(word: str, language: Language = "en") -> str:
 
 
 @in_own_units
+@use_layout(SCREEN)
 def live_preview(
     results: Results,
     description: Description,
