@@ -73,6 +73,7 @@ _OF_TABS = {
     "torque": "torque|tangential|inertia|friction|moment|loops|work|speed|wittenbauer|campbell|torsional",
     "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded",
 }
+_TABS = ("motion", "forces", "torque", "bearings", "balance")
 _CARDS = 6
 # angle at which formulas of all angles are written [deg]
 _SOMEWHERE = 33.0
@@ -419,7 +420,7 @@ def title_of(results: Results, language: Language) -> str:
 
 def _figures(drawn: dict[str, Drawing], marks: dict[str, list[str]], language: Language) -> list[str]:
     """Return the tabs, the panels of those that have figures, and the beginning of that of the values."""
-    panels: dict[str, list[str]] = {tab: [] for tab in ("motion", *reversed(_OF_TABS))}
+    panels: dict[str, list[str]] = {tab: [] for tab in _TABS}
     for name, drawing in drawn.items():
         caption = f"<figcaption>{html.escape(capital(drawing.title))}</figcaption>"
         picture = inline_svg(drawing, name, drawing.title, marks.get(name, ()))
