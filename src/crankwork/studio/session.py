@@ -42,7 +42,6 @@ from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
 from crankwork.show.alt_text import alt_text
 from crankwork.show.animation import Animation
-from crankwork.show.chart_layout import SCREEN, use_layout
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
 from crankwork.show.scene import Drawing
@@ -268,7 +267,6 @@ class Session:
         update = self._drawn(results, request.get("figures") or (), film, only_read=True)
         return update if film is None else update | {"film": inline_film(film, "machine")}
 
-    @use_layout(SCREEN)
     def _drawn(
         self, results: Results, wanted: Collection[str], film: Animation | None, *, only_read: bool = False
     ) -> dict[str, Any]:
@@ -408,7 +406,6 @@ def opened_share(word: str, language: Language = "en") -> str:
 
 
 @in_own_units
-@use_layout(SCREEN)
 def live_preview(
     results: Results,
     description: Description,
