@@ -77,6 +77,15 @@ def move(page, at, value):
     page.evaluate(MOVE, [at, value])
 
 
+def shown(page, place):
+    """Go to a diagram, or to `values` or `tables`, as a link does, and so to its tab; return where it stands."""
+    place = place if place in ("values", "tables") else f"figure-{place}"
+    page.evaluate("place => { location.hash = ''; location.hash = place; }", place)
+    found = page.locator(f"#{place}")
+    found.wait_for()
+    return found
+
+
 def rules_broken(page):
     """Return which rules of pages that everybody can read a page breaks, each with an element that does."""
     if not AXE.exists():

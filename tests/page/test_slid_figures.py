@@ -11,8 +11,9 @@ import crankwork
 from crankwork.page.sliders import LivePage
 from crankwork.report.display import displayed
 from crankwork.report.figures import drawings
+from crankwork.show.canvas import SCREEN, use_layout
 from crankwork.study.sliders import moved
-from page.slid import design, document, live, move, results
+from page.slid import design, document, live, move, results, shown
 
 
 @pytest.mark.slow
@@ -78,7 +79,7 @@ def moved_in_sight(page, at, value):
     curve = "[data-figure=piston_forces] path[data-curve=piston_force]"
     before = page.locator(curve).first.get_attribute("d")
     move(page, at, value)
-    page.locator("[data-figure=piston_forces]").scroll_into_view_if_needed()
+    shown(page, "piston_forces")
     page.wait_for_function(
         "([curve, before]) => document.querySelector(curve).getAttribute('d') !== before", arg=[curve, before]
     )
@@ -111,7 +112,8 @@ def test_curves_stand_where_the_analysis_has_them_in_scales_that_hold_them(slid)
 
 def test_a_curve_begins_where_its_graph_does_with_its_dot(slid):
     page = slid("engine")
-    box = drawings(live("engine").results[0], only={"piston_forces"})["piston_forces"].plots[0].box
+    with use_layout(SCREEN):
+        box = drawings(live("engine").results[0], only={"piston_forces"})["piston_forces"].plots[0].box
     moved_in_sight(page, 0, live("engine").sliders[0].shown(live("engine").sliders[0].high))
     x = drawn(page, "piston_forces", "piston_force")[0]
     assert [x[0], x[-1]] == pytest.approx([box.left, box.left + box.width], abs=0.011)
@@ -155,7 +157,8 @@ def test_a_diagram_within_another_keeps_its_frame_and_marks_of_scales_go_with_th
     move(page, 0, 66)
     move(page, 1, 2000)
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
-    (around, within) = (one.box for one in drawings(live("loop").results[0], only={"indicator"})["indicator"].plots)
+    with use_layout(SCREEN):
+        (around, within) = (one.box for one in drawings(live("loop").results[0], only={"indicator"})["indicator"].plots)
     ends = []
     for box, curve in ((around, "diagram_pressure"), (within, "gas_exchange")):
         x = drawn(page, "indicator", curve)[0]
@@ -171,7 +174,9 @@ def test_a_diagram_within_another_keeps_its_frame_and_marks_of_scales_go_with_th
     per_unit = [(one[-1][1] - one[0][1]) / (one[-1][0] - one[0][0]) for one in ticks]
     assert per_unit[0] == pytest.approx(per_unit[1], rel=1e-3)
     assert marks.count() == 1
+    shown(page, "indicator")
     assert not marks.is_visible()
+    shown(page, "kinematics")
     assert [one.is_visible() for one in titles.all()] == [True, True]
 
 

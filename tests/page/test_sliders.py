@@ -14,7 +14,7 @@ from crankwork.page.document import page as written
 from crankwork.report.display import displayed
 from crankwork.study.sliders import moved
 from crankwork.units import to_si
-from page.slid import EXAMPLES, described, design, document, live, move, results, rules_broken
+from page.slid import EXAMPLES, described, design, document, live, move, results, rules_broken, shown
 
 # settings that are compared with analyses, which take their time
 SETTINGS = {"engine": 24, "four-bar": 24, "V8": 5, "six-bar": 12, "spark-engine": 12}
@@ -86,21 +86,22 @@ def test_the_browser_calculates_what_analyses_give(slid, name):
 
 
 def printed(page, key):
-    return page.locator(f'[data-value="{key}"]').inner_text()
+    return page.locator(f'#values [data-value="{key}"]').inner_text()
 
 
 @pytest.mark.parametrize("name", ["engine", "four-bar"])
 def test_values_tables_and_explanations_follow_and_go_back(slid, name):
     page, one = slid(name), live(name)
     speed = [slider.key for slider in one.sliders].index("crank.speed")
+    shown(page, "values")
     before = page.evaluate("[document.querySelector('main').innerHTML, document.documentElement.className]")
     value = round(one.sliders[speed].shown(0.7 * one.sliders[speed].low + 0.3 * one.sliders[speed].high))
     move(page, speed, value)
     expected = results(name, design(name, crank_speed=value))
-    shown = page.locator("[data-value]").evaluate_all("all => all.map((one) => one.dataset.value)")
-    assert len(shown) > 10
+    keys = page.locator("#values [data-value]").evaluate_all("all => all.map((one) => one.dataset.value)")
+    assert len(keys) > 10
     changed = 0
-    for key in shown:
+    for key in keys:
         wanted, stated = (displayed(key, found.summary[key]) for found in (expected, one.results[0]))
         text = printed(page, key)
         if "_angle" not in key:
@@ -110,8 +111,8 @@ def test_values_tables_and_explanations_follow_and_go_back(slid, name):
             assert near == pytest.approx(wanted, rel=2e-5, abs=1e-9), key
             changed += abs(wanted - stated) > 1e-3 * abs(stated)
     assert changed >= 3
-    key = next(key for key in shown if key.endswith("_max") and not key.startswith("gas"))
-    page.locator(f'[data-value="{key}"]').click()
+    key = next(key for key in keys if key.endswith("_max") and not key.startswith("gas"))
+    shown(page, "values").locator(f'[data-value="{key}"]').click()
     assert printed(page, key) in page.locator("#explanation .equation").first.inner_text()
     page.keyboard.press("Escape")
     page.locator("#tables").scroll_into_view_if_needed()
@@ -177,7 +178,7 @@ def test_lengths_without_a_machine_keep_the_last_one(slid):
     # nor is what was not seen yet drawn of lengths that no machine has
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert page.locator("path[d*=NaN]").count() == 0
-    page.locator('[data-value="joint_force_max.A"]').click()
+    shown(page, "values").locator('[data-value="joint_force_max.A"]').click()
     assert printed(page, "joint_force_max.A") in page.locator("#explanation .equation").first.inner_text()
     move(page, 2, ends[1].shown(ends[1].now))
     assert page.locator("#told").inner_text() == ""
@@ -195,13 +196,13 @@ def test_what_polynomials_do_not_follow_is_pale_and_all_else_follows(slid, name,
     page, expected = slid(name), results(name, [value])
     move(page, 0, value)
     assert page.locator("#told").inner_text() == ""
-    shown = page.locator("[data-value]").evaluate_all("all => all.map((one) => one.dataset.value)")
-    assert {key: printed(page, key) for key in shown} == {
-        key: number(displayed(key, expected.summary[key]), "en") for key in shown
+    keys = page.locator("#values [data-value]").evaluate_all("all => all.map((one) => one.dataset.value)")
+    assert {key: printed(page, key) for key in keys} == {
+        key: number(displayed(key, expected.summary[key]), "en") for key in keys
     }
     pale = set(page.locator("tr.filed [data-key]").evaluate_all("all => all.map((one) => one.dataset.key)"))
     assert {"dynamic_torque_max", "dynamic_torque_min"} <= pale
-    for key in expected.summary.keys() - pale - set(shown):
+    for key in expected.summary.keys() - pale - set(keys):
         assert expected.summary[key] == pytest.approx(live(name).results[0].summary[key], rel=1e-9, abs=1e-12), key
     (found,) = page.evaluate(CALCULATED, [[float(to_si(value, live(name).sliders[0].unit))]])
     column = expected[live_column]
@@ -321,7 +322,7 @@ def test_an_extreme_is_explained_where_it_is_now(slid):
     wanted = results("six-bar", design("six-bar", crank_radius=55))
     compared = 0
     for key in ("joint_force_max.A", "joint_force_max.B"):
-        page.locator(f'[data-value="{key}"]').click()
+        shown(page, "values").locator(f'[data-value="{key}"]').click()
         place = key.replace("_max", "_max_angle")
         angle, stated = (displayed(place, one.summary[place]) for one in (wanted, live("six-bar").results[0]))
         line = page.locator("#explanation li").first.inner_text()

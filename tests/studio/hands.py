@@ -23,6 +23,17 @@ def field(page, key):
     return page.locator(f'[data-of="{key}"]')
 
 
+def value(page, key):
+    """Return the number that stands in a field, with its unit."""
+    return f"{field(page, key).input_value()} {field(page, key).locator('+ span').inner_text()}".strip()
+
+
+def chosen(page, which, option):
+    """Choose something of a list in the menu."""
+    page.locator(".menu summary").click()
+    page.select_option(which, option)
+
+
 def typed(page, key, value):
     """Type a number into its field, and wait for the machine that it makes."""
     field(page, key).fill(value)
@@ -77,7 +88,7 @@ def undone(page):
 
 
 def begin(page, name):
-    page.select_option("#template", name)
+    chosen(page, "#template", name)
     page.wait_for_function(
         "name => document.getElementById('source').value.includes(name)", arg="[cylinder]" if name == "engine" else "["
     )

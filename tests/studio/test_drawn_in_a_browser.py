@@ -117,7 +117,7 @@ def test_a_chain_goes_on_from_a_pin_keeps_what_was_typed_and_a_mass_comes_with_i
     do.sourced(page, "\n5 = ")
     assert '"300 rpm"' in do.source(page)
     assert page.locator('#film [data-part^="link."]').count() == 5
-    page.get_by_label("Add a field ... links.2", exact=True).select_option("links.2.mass")
+    page.get_by_label("Add a field: Links · 2", exact=True).select_option("links.2.mass")
     do.settled(page)
     assert do.refused(page) == []
     torques = page.locator("#add option[value=torques]"), page.locator('.figures [data-name="torques"]')
@@ -190,7 +190,7 @@ def test_a_chain_goes_on_from_the_middle_of_a_link_and_other_links_keep_their_na
     do.sourced(page, "\n5 = ")
     assert do.refused(page) == []
     assert "points = { D = [" in do.source(page)
-    page.get_by_label("Add a field ... links.5", exact=True).select_option("links.5.mass")
+    page.get_by_label("Add a field: Links · 5", exact=True).select_option("links.5.mass")
     do.settled(page)
     at = do.canvas(page)
     page.mouse.move(*at(150, 120))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from crankwork.description.machine_file import template
 from crankwork.studio.session import opened_share
-from studio.hands import begin, field, refused, settled, source, sourced, told, typed, undone
+from studio.hands import begin, chosen, field, refused, settled, source, sourced, told, typed, undone, value
 from studio.test_pmks import FOUR_BAR
 
 PASTED = """word => {
@@ -22,10 +22,12 @@ def test_a_machine_is_exported_shared_and_opened_again(seen):
     # diagrams that are seen too
     for name, start in (("tables.xlsx", b"PK"), ("links.svg", b"<svg"), ("links.png", b"\x89PNG")):
         with page.expect_download() as download:
-            page.select_option("#export", name)
+            chosen(page, "#export", name)
+        assert page.locator(".menu[open]").count() == 0
         assert download.value.suggested_filename == name
         data = Path(download.value.path()).read_bytes()
         assert data.removeprefix(b'<?xml version="1.0" encoding="UTF-8"?>\n').startswith(start)
+    page.locator(".menu summary").click()
     page.locator("#share").click()
     page.wait_for_selector("#notice:not([hidden])")
     word = page.evaluate("navigator.clipboard.readText()")
@@ -50,8 +52,8 @@ def test_a_studio_that_was_started_again_is_told_from_one_that_does_not_answer_a
             each.wait_for_selector(".figures svg")
     told(page, "does not answer")
     assert page.locator("#notice button").first.inner_text() == "Share"
-    for key, value in (("crank.speed", "333 rpm"), ("crank.radius", "61 mm")):
-        field(page, key).fill(value)
+    for key, written in (("crank.speed", "333 rpm"), ("crank.radius", "61 mm")):
+        field(page, key).fill(written)
         field(page, key).press("Enter")
     with start(tmp_path, "--port", re.search(r":(\d+)/", one.address)[1]) as again:
         told(page, "started again")
@@ -69,7 +71,7 @@ def test_what_was_opened_from_elsewhere_is_not_saved_over_the_file_and_what_was_
     typed(page, "crank.speed", "90 rpm")
     page.reload()
     page.wait_for_selector(".figures svg")
-    assert field(page, "crank.speed").input_value() == "90 rpm"
+    assert value(page, "crank.speed") == "90 rpm"
     page.locator("#title").click()
     page.keyboard.press("Control+s")
     told(page, "Saved")
@@ -116,7 +118,7 @@ def test_a_file_that_was_opened_before_is_opened_again_and_saved(seen, start, tm
         assert page.locator("#title").inner_text() == "Шарнирный четырёхзвенник"
         options = page.locator("#template optgroup").first.locator("option")
         assert options.all_text_contents() == [f"my press.toml – {tmp_path}"]
-        page.select_option("#template", str(path))
+        chosen(page, "#template", str(path))
         page.wait_for_function("() => document.getElementById('save').title.includes('my press.toml')")
         settled(page)
         typed(page, "crank.speed", "33 rpm")
@@ -132,7 +134,7 @@ def test_a_file_that_was_opened_before_is_opened_again_and_saved(seen, start, tm
         assert options.all_text_contents() == [title, f"my press.toml – {tmp_path}"]
         path.unlink()
         text = source(page)
-        page.select_option("#template", str(path))
+        chosen(page, "#template", str(path))
         told(page, "my press.toml")
         # it is offered no more; the notice may be that of the disk
         page.wait_for_function("() => document.querySelector('#template optgroup').childElementCount === 1")
@@ -140,7 +142,7 @@ def test_a_file_that_was_opened_before_is_opened_again_and_saved(seen, start, tm
         assert source(page) == text
         assert page.locator("body.stale").count() == 0
         typed(page, "crank.speed", "1000 rpm")
-        page.select_option("#template", title)
+        chosen(page, "#template", title)
         page.wait_for_function("text => document.getElementById('source').value === text", arg=text)
         page.close()
 
@@ -151,7 +153,7 @@ def test_a_file_that_another_page_saved_is_read_as_it_is_now(seen, start, tmp_pa
     with start(tmp_path, str(path)) as one:
         path.write_text(template("four-bar").replace("100 rpm", "77 rpm"), encoding="utf-8")
         page = seen(one)
-        assert field(page, "crank.speed").input_value() == "77 rpm"
+        assert value(page, "crank.speed") == "77 rpm"
         page.reload()
         page.wait_for_selector(".figures svg")
         typed(page, "crank.speed", "78 rpm")

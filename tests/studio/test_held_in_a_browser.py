@@ -139,7 +139,7 @@ def test_a_legend_follows_and_a_number_slid_beyond_the_machines_around_is_asked_
     # what is written of the mean torque is what the server writes
     assert legend.text_content() == held
     prepared(page, "rod.length")
-    assert hold(page, "rod.length", share=0.4) == "true"
+    assert hold(page, "rod.length", share=-0.4) == "true"
     settled(page)
     assert drawn.inner_html() != inside
 

@@ -27,7 +27,7 @@ def test_a_typed_number_changes_text_values_and_drawing_as_one_step(seen):
     do.settled(page)
     assert 'length = "112.5 mm"' in do.source(page)
     assert do.number(page, "transmission_angle_min.B") == before
-    assert do.field(page, "links.rocker.length").input_value() == "112.5 mm"
+    assert do.value(page, "links.rocker.length") == "112.5 mm"
     page.keyboard.press("Control+Shift+z")
     do.settled(page)
     assert 'length = "120 mm"' in do.source(page)
@@ -105,7 +105,7 @@ def test_text_is_typed_and_the_form_follows(seen):
     page.locator("#source").fill(do.source(page).replace('"100 rp"', '"250 rpm"'))
     page.wait_for_selector("body:not(.stale)")
     page.locator("#form-tab").click()
-    assert do.field(page, "crank.speed").input_value() == "250 rpm"
+    assert do.value(page, "crank.speed") == "250 rpm"
     page.locator("#text-tab").click()
     page.locator("#source").press("Control+End")
     shown = page.locator("#shown").inner_text()
@@ -191,12 +191,12 @@ def test_diagrams_are_chosen_pinned_and_compared(seen):
     assert page.locator("#results ins", has_text="+20 %").count() > 0
     page.locator("#pins button").first.click()
     do.settled(page)
-    assert do.field(page, "crank.speed").input_value() == "100 rpm"
+    assert do.value(page, "crank.speed") == "100 rpm"
     assert page.locator("#pins button").count() == 2
     # in another language too
     do.typed(page, "crank.speed", "150 rpm")
     ghosts = page.locator(".figures path.ghost-1").count()
-    page.select_option("#language", "ru")
+    do.chosen(page, "#language", "ru")
     page.wait_for_function("count => document.querySelectorAll('.figures path.ghost-1').length === count", arg=ghosts)
     assert page.locator("html").get_attribute("lang") == "ru"
     do.settled(page)
@@ -274,7 +274,7 @@ def test_the_studio_can_be_used_by_everybody(seen, language, scheme, machines):
             found[name, width] = page.evaluate(WIDER)
             assert page.locator("header").bounding_box()["height"] < 70
     # the longest words of all
-    page.select_option("#language", "vi")
+    do.chosen(page, "#language", "vi")
     page.wait_for_selector("html[lang=vi]")
     do.settled(page)
     found["vi"] = page.evaluate(WIDER)
@@ -311,7 +311,7 @@ def test_numbers_are_varied_with_progress_and_a_way_to_stop(seen):
     page.locator("#trial summary").click()
     trial = page.locator("#trial form")
     trial.locator("select").first.select_option("crank.radius")
-    assert trial.locator("input").first.input_value() == "31.3..125 mm"
+    assert trial.locator("input").first.input_value() == "30..95 mm"
     trial.locator("input").first.fill("50..60 mm:4")
     trial.locator("button").click()
     page.wait_for_selector("#trial details svg")

@@ -10,6 +10,7 @@ from crankwork.resources import read_resource, resource_names
 _IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+)\.js";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=class|function|const)", re.MULTILINE)
 _COMMENT = re.compile(r"^\s*//.*\n|/\*\*(?:[^*]|\*(?!/))*\*/\s*", re.MULTILINE)
+_REMARK = re.compile(r"^/\*.*\*/\n", re.MULTILINE)
 _INDENT = re.compile(r"^\s+", re.MULTILINE)
 # around marks of a style sheet, and after the name of what is set
 _SPACE = re.compile(r"\s*([{};,])\s*|(?<=[\w-])(:) ")
@@ -41,7 +42,7 @@ def _in_order(entry: str) -> Iterator[str]:
 
 def style(*names: str) -> str:
     """Return style sheets as one."""
-    return "".join(_SPACE.sub(r"\1\2", read_resource("browser", f"{name}.css")) for name in names)
+    return "".join(_SPACE.sub(r"\1\2", _REMARK.sub("", read_resource("browser", f"{name}.css"))) for name in names)
 
 
 def modules() -> list[str]:

@@ -134,10 +134,10 @@ export class Ahead {
   hold(ready, isOfNow) {
     const { data, figures, behind } = ready.ahead;
     const { sliders } = data;
-    for (const one of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#results [data-key]"))) {
+    for (const one of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("main [data-key]"))) {
       const key = one.dataset.key ?? "";
       if (sliders.values[key]) one.dataset.value = key;
-      one.closest("tr")?.classList.toggle("filed", sliders.filed.includes(key));
+      one.closest("tr, div")?.classList.toggle("filed", sliders.filed.includes(key));
     }
     const columns = columnsOf(data);
     // joints stand upon the paper of the machine that was asked of

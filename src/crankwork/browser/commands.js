@@ -63,7 +63,7 @@ export class Commands {
   /** @param {number} at */
   choose(at) {
     this.at = Math.min(Math.max(at, 0), this.found.length - 1);
-    for (const [k, item] of [...this.list.children].entries()) item.setAttribute("aria-selected", String(k === this.at));
+    for (const [k, item] of [...this.list.children].entries()) item.ariaSelected = String(k === this.at);
     const chosen = this.list.children[this.at];
     chosen?.scrollIntoView({ block: "nearest" });
     this.input.setAttribute("aria-activedescendant", chosen?.id ?? "");
@@ -96,7 +96,7 @@ function commandsOf(words) {
   /** @type {(where: string) => any[]} */
   const all = (where) => [...document.querySelectorAll(where)];
   const name = (/** @type {HTMLElement} */ one) => one.getAttribute("aria-label") || (one.textContent ?? "").trim();
-  const buttons = all("header button:not(:disabled):not(#all), #bar button, [role=tab]").map((one) => ({ name: name(one) || one.id, act: () => one.click() }));
+  const buttons = all(":is(header, .tools) button:not(:disabled, #all, #pins *)").map((one) => ({ name: name(one) || one.id, act: () => one.click() }));
   const files = all("header input[type=file]").map((one) => ({ name: name(one.closest("label")), act: () => one.click() }));
   const choices = all("header select, #add, #form select.more").flatMap((one) => [...one.options].filter(({ value, selected }) => value && !selected).map((option) => ({
     name: `${name(one).replace(/ *\.\.\. */, " ").trim()}: ${option.text}`,

@@ -45,7 +45,7 @@ export class Figure {
     this.home = [svg.viewBox.baseVal.x, svg.viewBox.baseVal.y, svg.viewBox.baseVal.width, svg.viewBox.baseVal.height];
     // an image may hold nothing that is pressed
     svg.setAttribute("role", "group");
-    if (data.told) svg.setAttribute("aria-label", data.told);
+    if (data.told) svg.ariaLabel = data.told;
     this.legend();
     this.zoom();
     if (!this.moving.length) return;
@@ -201,12 +201,12 @@ export class Figure {
       if (!own.length || !(text instanceof SVGTextElement)) return;
       text.setAttribute("role", "button");
       text.setAttribute("tabindex", "0");
-      text.setAttribute("aria-pressed", "true");
+      text.ariaPressed = "true";
       const toggle = () => {
         const off = own[0].path.classList.contains("off");
         for (const one of this.svg.querySelectorAll("path[data-curve]")) if (names.includes(/** @type {SVGElement} */ (one).dataset.curve ?? "")) one.classList.toggle("off", !off);
         for (const one of [row, text]) one.classList.toggle("faint", !off);
-        text.setAttribute("aria-pressed", String(off));
+        text.ariaPressed = String(off);
         this.draw();
       };
       text.addEventListener("click", toggle);

@@ -1,9 +1,10 @@
 // The machine file as a form: a field for each number, a slider where it is one, what may be added.
 
 /**
- * A field: key, name and meaning, what stands in it; a choice has options, a number what a slider goes by.
+ * A field: key, name and meaning, what stands in it; a choice has options, a number what a slider goes by, and what of it
+ * is shown before its unit.
  * @typedef {{key: string, name: string, label: string, value: string, also?: Record<string, string>, means?: string, options?: string[], number?: number, unit?: string, after?: string,
- *   low?: number, high?: number, whole?: boolean}} Row
+ *   low?: number, high?: number, whole?: boolean, shown?: string, suffix?: string}} Row
  */
 
 /** @typedef {{path: string, means: string, label: string, rows: Row[], more: Row[]}} Group */
@@ -68,7 +69,7 @@ export class Form {
   choice(words, options, act) {
     const made = document.createElement("select");
     made.className = "more";
-    made.setAttribute("aria-label", words);
+    made.ariaLabel = words;
     made.append(new Option(words, ""), ...options.map(([key, name]) => new Option(name, key)));
     made.addEventListener("change", () => {
       const { value, selectedOptions } = made;
@@ -98,8 +99,7 @@ export class Form {
   group(group) {
     const made = document.createElement("fieldset");
     const legend = made.appendChild(document.createElement("legend"));
-    legend.textContent = group.path || this.words.whole;
-    if (group.label !== group.path) legend.append(key(group.label));
+    legend.textContent = group.label || this.words.whole;
     legend.title = group.means;
     made.append(...group.rows.map((row) => this.row(row)));
     if (group.more.length) {
@@ -107,7 +107,7 @@ export class Form {
         const one = group.more.find((other) => other.key === chosen);
         if (one) this.tells.added({ ...one.also, [one.key]: one.value });
       });
-      more.setAttribute("aria-label", `${this.words.more} ${group.path}`);
+      more.ariaLabel = `${this.words.more}: ${legend.textContent}`;
       made.append(more);
     }
     return made;
@@ -119,7 +119,6 @@ export class Form {
     made.className = "field";
     const label = made.appendChild(document.createElement("label"));
     label.textContent = row.label;
-    if (row.label !== row.name) label.append(key(row.name));
     label.title = row.means ?? "";
     const id = `field-${row.key}`;
     label.htmlFor = id;
@@ -129,7 +128,7 @@ export class Form {
     input.dataset.of = row.key;
     made.append(input);
     input.addEventListener("change", () => this.tells.typed(row.key, input.value, true));
-    if (row.number !== undefined) made.append(this.slider(row));
+    if (row.number !== undefined) made.append(document.createElement("span"), ...this.slider(row));
     const gone = document.createElement("button");
     gone.className = "gone";
     gone.textContent = "×";
@@ -140,14 +139,14 @@ export class Form {
       if (event.key === "Enter" && event.altKey) this.tells.reach(row.key);
       else if (event.key === "Delete" && event.ctrlKey) this.tells.gone(row.key);
       else if (event.target === input && input instanceof HTMLInputElement && /^Arrow(Up|Down)$/.test(event.key)) this.step(input, event.key === "ArrowDown" ? 1 : -1);
-      else if (event.key === "Escape" && input instanceof HTMLInputElement) input.value = this.stated.get(row.key) ?? input.value;
+      else if (event.key === "Escape" && input instanceof HTMLInputElement) input.value = input.dataset.shown ?? this.stated.get(row.key) ?? "";
     });
     made.addEventListener("click", (event) => {
       if (!event.altKey) return;
       event.preventDefault();
       this.tells.reach(row.key);
     });
-    gone.setAttribute("aria-label", `${this.words.without} ${row.key}`);
+    gone.ariaLabel = `${this.words.without} ${row.key}`;
     gone.addEventListener("click", () => this.tells.gone(row.key));
     made.append(gone);
     if (row.means) {
@@ -156,6 +155,7 @@ export class Form {
       means.id = `means-${row.key}`;
       input.setAttribute("aria-describedby", means.id);
     }
+    made.append(document.createElement("em"));
     return made;
   }
 
@@ -164,20 +164,19 @@ export class Form {
     const slider = document.createElement("input");
     slider.type = "range";
     slider.dataset.slides = row.key;
-    slider.setAttribute("aria-label", `${row.label}${row.unit ? `, ${row.unit}` : ""}`);
+    slider.ariaLabel = `${row.label}${row.unit ? `, ${row.unit}` : ""}`;
     slider.addEventListener("input", () => {
       this.held = row.key;
-      const text = `${slider.value}${slider.dataset.after ?? ""}`;
       const field = this.field(row.key);
-      if (field) field.value = text;
-      this.tells.typed(row.key, text, false);
+      if (field) field.value = local(slider.value);
+      this.tells.typed(row.key, `${slider.value}${slider.dataset.after ?? ""}`, false);
     });
     slider.addEventListener("change", () => {
       this.held = "";
-      const field = this.field(row.key);
-      if (field) this.tells.typed(row.key, field.value, true, true);
+      this.tells.typed(row.key, `${slider.value}${slider.dataset.after ?? ""}`, true, true);
     });
-    return slider;
+    const [low, high] = ["low", "high"].map((kind) => Object.assign(document.createElement("small"), { className: kind }));
+    return [low, slider, high];
   }
 
   /**
@@ -196,9 +195,12 @@ export class Form {
   fill(row, fresh) {
     this.stated.set(row.key, row.value);
     const field = this.field(row.key);
-    if (field && this.held !== row.key && (fresh || field !== document.activeElement || field instanceof HTMLSelectElement)) field.value = row.value;
+    if (field && this.held !== row.key && (fresh || field !== document.activeElement || field instanceof HTMLSelectElement)) field.value = row.shown ?? row.value;
     const slider = /** @type {HTMLInputElement | null} */ (this.room.querySelector(`[data-slides="${CSS.escape(row.key)}"]`));
     if (!slider || this.held === row.key || row.number === undefined) return;
+    if (field) field.dataset.shown = row.shown;
+    const unit = slider.parentElement?.querySelector("span");
+    if (unit) unit.textContent = row.suffix ?? "";
     slider.dataset.after = row.after ?? "";
     slider.dataset.unit ??= row.unit ?? "";
     // a thumb stays where it was left
@@ -210,6 +212,7 @@ export class Form {
     [slider.min, slider.max, slider.step] = [low, high, step].map(String);
     slider.value = String(row.number);
     slider.dataset.unit = row.unit ?? "";
+    for (const [one, end] of [[slider.previousElementSibling, slider.min], [slider.nextElementSibling, slider.max]]) if (one) one.textContent = local(end).replace("-", "−");
   }
 
   /**
@@ -221,21 +224,23 @@ export class Form {
       const own = refusals.find(({ key }) => key && (key === one.dataset.of || key.startsWith(`${one.dataset.of}.`) || key.startsWith(`${one.dataset.of}[`) || one.dataset.of?.startsWith(`${key}[`)));
       one.toggleAttribute("aria-invalid", Boolean(own));
       if (own) one.setAttribute("aria-invalid", "true");
-      one.title = own?.text ?? "";
+      const told = one.parentElement?.querySelector("em");
+      // what stands before the key is its place
+      if (told) told.textContent = own?.text.split(`${own.key}: `).pop() ?? "";
     }
   }
 }
 
 /**
- * Return a word of the file, small beside what it means.
- * @param {string} word
+ * Return a number with the decimal mark of the page.
+ * @param {string} text
  */
-function key(word) {
-  return Object.assign(document.createElement("span"), { className: "key", textContent: word });
+function local(text) {
+  return document.documentElement.lang === "en" ? text : text.replace(".", ",");
 }
 
 /**
- * Return from where to where a slider goes, and its steps: from half of a number to double, within what it may be.
+ * Return from where to where a slider goes, and its steps: half of a number to both sides, to round ends, within what it may be.
  * @param {number} number
  * @param {number} low
  * @param {number} high
@@ -244,10 +249,12 @@ function key(word) {
  */
 export function reach(number, low, high, whole, size = 1) {
   size = Math.abs(number) || Math.min(size, Math.abs(high), Math.abs(low) || Infinity);
-  const ends = number > 0 ? [number / 2, number * 2] : number < 0 ? [number * 2, number / 2] : [-size, size];
-  const step = whole ? 1 : 10 ** Math.floor(Math.log10(size) - 2);
-  // ends that are steps too
-  const from = Math.max(Math.ceil(ends[0] / step - 1e-9) * step, low);
-  const to = Math.min(Math.floor(ends[1] / step + 1e-9) * step, high);
+  const power = 10 ** Math.floor(Math.log10(size));
+  const step = whole ? 1 : power / 100;
+  const wide = number ? size / 2 : size;
+  // ends are tenths, fifths or halves of a power of ten
+  const grain = Math.max(([5, 2].find((one) => one * power <= size) ?? 1) * power / 10, step);
+  const from = Math.max(Math.round((number - wide) / grain) * grain, low);
+  const to = Math.min(Math.round((number + wide) / grain) * grain, high);
   return [from, to, step].map((one) => Number(one.toPrecision(9)));
 }

@@ -173,7 +173,7 @@ export class Motion {
 
   start() {
     this.cursor.runs = true;
-    this.button.setAttribute("aria-pressed", "true");
+    this.button.ariaPressed = "true";
     requestAnimationFrame((time) => {
       this.last = time;
       this.frame(time);
@@ -182,7 +182,7 @@ export class Motion {
 
   stop() {
     this.cursor.runs = false;
-    this.button.setAttribute("aria-pressed", "false");
+    this.button.ariaPressed = "false";
     this.cursor.snap(this.cursor.at);
   }
 

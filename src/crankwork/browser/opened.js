@@ -4,6 +4,7 @@ import { Cursor } from "./cursor.js";
 import { Explanation } from "./explain.js";
 import { choose, Film } from "./machine.js";
 import { columnsOf } from "./numbers.js";
+import { bindMenus, bindTabs } from "./tabs.js";
 import { showTables } from "./table.js";
 
 /**
@@ -68,9 +69,57 @@ function begin(data, kind, slide) {
   const film = machine && data.film ? new Film(machine, data.film, cursor) : undefined;
   if (film && motion) choose(film, motion);
   slide?.({ data, columns, cursor, figures, film, explanation, tables, show: show || undefined });
+  bindPanels();
   reachWide();
   addEventListener("resize", reachWide);
   if (data.film && motion && !matchMedia("(prefers-reduced-motion: reduce)").matches) motion.start();
+}
+
+// diagrams of a tab that are open at a time
+const MOST_OPEN = 6;
+
+/** Show one tab at a time, that of a link too; of many diagrams some are closed. */
+function bindPanels() {
+  const show = bindTabs(document.querySelector("main > [role=tablist]"));
+  bindMenus();
+  for (const panel of document.querySelectorAll("[role=tabpanel]")) {
+    const figures = [...panel.querySelectorAll(".figures > figure")];
+    if (figures.length > MOST_OPEN) for (const [k, figure] of figures.entries()) bindFold(figure, figures, k >= MOST_OPEN);
+  }
+  const go = () => {
+    const target = document.getElementById(location.hash.slice(1));
+    const panel = target?.closest("[role=tabpanel]");
+    if (!panel) return;
+    show(panel.id);
+    if (target?.matches(".shut")) target.querySelector("button")?.click();
+    target?.scrollIntoView();
+  };
+  addEventListener("hashchange", go);
+  go();
+}
+
+/**
+ * Let the title of a diagram open and close it; where too many would be open, the first of the others closes.
+ * @param {Element} figure
+ * @param {Element[]} every
+ * @param {boolean} isShut
+ */
+function bindFold(figure, every, isShut) {
+  const caption = figure.querySelector("figcaption");
+  const button = document.createElement("button");
+  button.textContent = caption?.textContent ?? "";
+  caption?.replaceChildren(button);
+  const fold = () => {
+    figure.classList.toggle("shut", isShut);
+    button.ariaExpanded = String(!isShut);
+  };
+  button.addEventListener("click", () => {
+    const open = every.filter((one) => !one.matches(".shut"));
+    if (isShut && open.length >= MOST_OPEN) open[0].querySelector("button")?.click();
+    isShut = !isShut;
+    fold();
+  });
+  fold();
 }
 
 /** Let keys reach what is wider than its room, and nothing else. */

@@ -61,7 +61,7 @@ export class Sketch {
     this.svg.setAttribute("viewBox", this.paper.join(" "));
     this.svg.setAttribute("class", "drawing sketch");
     this.svg.setAttribute("role", "application");
-    this.svg.setAttribute("aria-label", words.sketch);
+    this.svg.ariaLabel = words.sketch;
     this.svg.tabIndex = 0;
     this.missing = document.createElement("output");
     this.missing.className = "missing";

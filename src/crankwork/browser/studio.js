@@ -13,6 +13,7 @@ import { choose, Film } from "./machine.js";
 import { columnsOf, fixed } from "./numbers.js";
 import { changed, curvesOf, differs, MOST_PINS } from "./pins.js";
 import { Sketch } from "./sketch.js";
+import { bindMenus, bindTabs } from "./tabs.js";
 import { Talk, UNKNOWN } from "./talk.js";
 import { Trial } from "./trial.js";
 import { Walk } from "./walk.js";
@@ -119,6 +120,7 @@ class StudioPage {
       filmed: (drawn, film) => this.filmed(drawn, film),
       cursor: () => this.cursor,
     });
+    this.tab = bindTabs(document.querySelector("[role=tablist]"));
     this.bind();
     document.documentElement.classList.add("live");
     const now = () => this.document();
@@ -389,7 +391,7 @@ class StudioPage {
       return button;
     };
     for (const [name, act] of ways) add(name, act);
-    add("×", () => {}).setAttribute("aria-label", this.words.dismiss);
+    add("×", () => {}).ariaLabel = this.words.dismiss;
   }
 
   /**
@@ -478,7 +480,6 @@ class StudioPage {
   machine(drawn, data) {
     const own = room("film");
     const states = [...own.querySelectorAll("input, select")].map((one) => [one.id || /** @type {HTMLElement} */ (one).dataset.choice, one]);
-    const open = own.querySelector("details")?.open;
     const focused = own.querySelector("svg") === document.activeElement;
     own.innerHTML = drawn;
     for (const [name, was] of states) {
@@ -486,8 +487,6 @@ class StudioPage {
       if (was instanceof HTMLInputElement && now instanceof HTMLInputElement) now.checked = was.checked;
       if (was instanceof HTMLSelectElement && now instanceof HTMLSelectElement && now.options[was.selectedIndex]) now.selectedIndex = was.selectedIndex;
     }
-    const details = own.querySelector("details");
-    if (details && open) details.open = true;
     const svg = own.querySelector("svg");
     this.film = undefined;
     this.bound("machine", (cursor) => {
@@ -534,7 +533,7 @@ class StudioPage {
     const close = document.createElement("button");
     close.className = "gone";
     close.textContent = "×";
-    close.setAttribute("aria-label", `${this.words.without} ${title}`);
+    close.ariaLabel = `${this.words.without} ${title}`;
     close.addEventListener("click", () => {
       this.wanted = (this.wanted ?? []).filter((one) => one !== name);
       made.remove();
@@ -582,16 +581,16 @@ class StudioPage {
     const told = [...(answer.doubt ? [answer.doubt] : []), ...answer.notices];
     const [met, all] = answer.checks;
     own.innerHTML = answer.values;
+    room("cards").innerHTML = answer.cards;
     const head = document.createElement("p");
     head.textContent = [answer.method, ...(all ? [`${this.words.checks} ${met}/${all}`] : [])].join(" · ");
     own.prepend(head);
     for (const text of told.slice(0, answer.doubt ? 1 : 0)) own.prepend(Object.assign(document.createElement("p"), { className: "doubt", textContent: text }));
-    for (const button of /** @type {NodeListOf<HTMLElement>} */ (own.querySelectorAll("[data-key]"))) {
+    for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("main [data-key]"))) {
       const key = button.dataset.key ?? "";
       const pinned = this.pins[this.pins.length - 1];
       const change = pinned ? differs(answer.summary[key], pinned.summary[key], answer.scales[key]) : "";
       if (change) button.after(Object.assign(document.createElement("ins"), { textContent: ` ${change}` }));
-      button.addEventListener("click", () => this.talk.ask({ do: "explain", key }));
     }
   }
 
@@ -726,7 +725,7 @@ class StudioPage {
    * @param {boolean} begins
    */
   drawing(begins) {
-    room("draw").setAttribute("aria-pressed", String(begins));
+    room("draw").ariaPressed = String(begins);
     this.hint.hidden = false;
     const isNew = begins && !this.editing.drawn && Boolean(this.film);
     this.hint.textContent = begins ? `${isNew ? `${this.words.sketch_new} ` : ""}${this.words.sketch}` : `${this.words.hint} ${this.editing.drawn ? this.words.sketch_again : ""}`;
@@ -763,16 +762,6 @@ class StudioPage {
     if (!this.editing.step(by)) return;
     if (this.sketch) this.drawing(Boolean(this.editing.drawn));
     this.show();
-  }
-
-  /** @param {string} name */
-  tab(name) {
-    for (const one of ["form", "text"]) {
-      room(one).hidden = one !== name;
-      const tab = room(`${one}-tab`);
-      tab.setAttribute("aria-selected", String(one === name));
-      tab.tabIndex = one === name ? 0 : -1;
-    }
   }
 
   /**
@@ -891,13 +880,13 @@ class StudioPage {
       ...this.pins.flatMap((one, k) => {
         const take = document.createElement("button");
         take.textContent = String(k + 1);
-        take.setAttribute("aria-label", `${this.words.pinned} ${k + 1}`);
+        take.ariaLabel = `${this.words.pinned} ${k + 1}`;
         take.className = `pin-${k + 1}`;
         take.addEventListener("pointerenter", () => (take.title = changed(one.fields ?? {}, this.fields()) || this.words.same));
         take.addEventListener("click", () => this.open(one.text, `${this.words.pinned} ${k + 1}`));
         const gone = document.createElement("button");
         gone.textContent = "×";
-        gone.setAttribute("aria-label", `${this.words.without} ${this.words.pinned} ${k + 1}`);
+        gone.ariaLabel = `${this.words.without} ${this.words.pinned} ${k + 1}`;
         gone.addEventListener("click", () => {
           this.pins = this.pins.filter((other) => other !== one);
           this.keep();
@@ -926,14 +915,10 @@ class StudioPage {
       const copied = await navigator.clipboard?.writeText(word).then(() => true, () => false);
       this.notice(copied ? this.words.copied : `${this.words.share}: ${word}`);
     });
-    for (const name of ["form", "text"]) on(`${name}-tab`, () => this.tab(name));
-    this.tab("form");
-    room("description").querySelector("[role=tablist]")?.addEventListener("keydown", (event) => {
-      const key = /** @type {KeyboardEvent} */ (event).key;
-      if (key !== "ArrowLeft" && key !== "ArrowRight") return;
-      const next = room("form").hidden ? "form" : "text";
-      this.tab(next);
-      room(`${next}-tab`).focus();
+    bindMenus();
+    document.addEventListener("click", ({ target }) => {
+      const { key } = /** @type {HTMLElement} */ (target).dataset;
+      if (key) this.talk.ask({ do: "explain", key });
     });
     for (const kind of ["pointerover", "pointerdown", "focusin"]) {
       room("form").addEventListener(kind, (event) => {

@@ -51,7 +51,7 @@ export function showTables(room, tables, columns, cursor, explain, filed) {
       return `<tr>${cells.join("")}</tr>`;
     });
     table.innerHTML = `<thead><tr>${heads.join("")}</tr></thead><tbody>${rows.join("")}</tbody>`;
-    table.setAttribute("aria-label", tables[Number(choice.value)].n);
+    table.ariaLabel = tables[Number(choice.value)].n;
     mark();
     reach(table.tBodies[0]?.rows[cursor.row]?.cells[0]);
   }

@@ -60,7 +60,7 @@ export class Trial {
     this.button = document.createElement("button");
     this.button.textContent = words.trial_run;
     this.bar = Object.assign(document.createElement("progress"), { hidden: true, value: 0 });
-    this.bar.setAttribute("aria-label", words.working);
+    this.bar.ariaLabel = words.working;
     this.form.replaceChildren(...made, this.count, this.goal, this.button, this.bar);
   }
 
@@ -128,7 +128,7 @@ async function* linesOf(answer) {
  */
 function choiceOf(name, options) {
   const made = document.createElement("select");
-  made.setAttribute("aria-label", name);
+  made.ariaLabel = name;
   made.append(...options.map(([key, text]) => new Option(text, key)));
   return made;
 }
@@ -137,6 +137,6 @@ function choiceOf(name, options) {
 function fieldOf(name) {
   const made = document.createElement("input");
   made.placeholder = name;
-  made.setAttribute("aria-label", name);
+  made.ariaLabel = name;
   return made;
 }

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from crankwork.analysis import Results
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
@@ -202,6 +203,18 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
     return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
 
 
+def main_keys(results: Results) -> list[str]:
+    """Return the keys of the single values that matter most, in their order."""
+    summary = results.summary
+    if results.machine.rotor is not None:
+        keys = [key for key in summary if not _is_place(key) and key_of(key).quantity in _OF_LINKAGES]
+        return keys or list(summary)
+    # a linkage has a joint there
+    numbers = [kind for kind in _NUMBERS if "piston_displacement" in results.columns or kind != "crankpin_load_max"]
+    return [key for kind in numbers for key in _of(kind, summary)
+            if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
+
+
 def _at_a_glance(material: Material) -> Iterator[Block]:
     """Yield the machine as it stands, the results that matter most, and whether the checks hold."""
     results, words, summary = material.results, material.words, material.results.summary
@@ -233,23 +246,11 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         yield Figure(still, caption, film.about or title, label="f:machine", high=_HIGHEST)
     if film is None:
         yield words.paragraph("main_results", table=Reference("t:glance"))
-    yield value_table("glance", [_row(material, key) for key in _glance_keys(material)], words)
+    yield value_table("glance", [_row(material, key) for key in main_keys(results)[:_GLANCE]], words)
     if results.unmet:
         yield Paragraph((capital(warning_text(results, words.language)),))
     else:
         yield from _all_hold(material)
-
-
-def _glance_keys(material: Material) -> list[str]:
-    """Return the keys of the results that matter most."""
-    summary = material.summary
-    # a linkage has a joint there
-    numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
-    keys = [key for kind in numbers for key in _of(kind, summary)
-            if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
-    if material.machine.rotor is not None:
-        keys = _main_keys(material) or list(summary)
-    return keys[:_GLANCE]
 
 
 def _all_hold(material: Material) -> Iterator[Block]:
@@ -268,7 +269,7 @@ def _conclusion(material: Material) -> Iterator[Block]:
     read = concluded(material) if material.has_piston else concluded_of_linkage(material)
     sentences = tuple(paragraph.runs for paragraph in read)
     keys = () if material.has_piston else _main_keys(material)
-    shown = {*_glance_keys(material)} if not material.full else set[str]()
+    shown = {*main_keys(material.results)[:_GLANCE]} if not material.full else set[str]()
     # the first page has most of them
     left = [key for key in keys if key not in shown]
     fewest = 1 if material.machine.alone else _FEWEST

@@ -6,7 +6,7 @@ import base64
 import gzip
 import html
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -158,7 +158,7 @@ def controls(film: Animation, language: Language) -> list[str]:
     rates = "".join(
         f'<option value="{rate}"{" selected" if rate == "1" else ""}>{shown}×' for rate, shown in _RATES.items()
     )
-    parts = ['<details class="controls">', f"<summary>{words('controls', language)}</summary>"]
+    parts = [f'<div class="controls" role="group" aria-label="{words("controls", language)}">']
     if film.views:
         boxes = [
             (translate("page.every_view", language), ChartBox(0, 0, film.ground.width, film.ground.height)),
@@ -168,12 +168,15 @@ def controls(film: Animation, language: Language) -> list[str]:
             f'<option value="{" ".join(f"{side:.1f}" for side in box)}">{html.escape(name)}' for name, box in boxes
         )
         parts.append(f'<label>{words("view", language)} <select id="view">{listed}</select></label>')
-    parts.append(f'<label>{words("rate", language)} <select id="rate">{rates}</select></label>')
     parts += [
         f'<label><input type="checkbox" data-choice="{html.escape(start)}"> {html.escape(capital(name))}</label>'
         for start, name in film.choices.items()
     ]
-    return [*parts, f'<label><input type="checkbox" id="traces"> {words("traces", language)}</label></details>']
+    return [
+        *parts,
+        f'<label><input type="checkbox" id="traces"> {words("traces", language)}</label>',
+        f'<label>{words("rate", language)} <select id="rate">{rates}</select></label></div>',
+    ]
 
 
 def bar(language: Language) -> list[str]:
@@ -183,4 +186,22 @@ def bar(language: Language) -> list[str]:
         f'<button id="play" aria-pressed="false" aria-label="{words("play", language)}"></button>',
         f'<input id="slider" type="range" min="0" value="0" aria-label="{words("slider", language)}">',
         f'<output id="shown"></output><button id="look">{words("look", language)}</button></div>',
+    ]
+
+
+def header(title: str, language: Language, menu: Iterable[str]) -> list[str]:
+    """Return the head of a page: its name, the bar of the cursor, and a menu."""
+    return [
+        f'<header><h1 id="title">{html.escape(title)}</h1><div id="bar">{"".join(bar(language))}</div>',
+        f'<details class="menu"><summary aria-label="{words("menu", language)}">…</summary><div>',
+        *menu,
+        "</div></details></header>",
+    ]
+
+
+def drawer(language: Language) -> list[str]:
+    """Return the element in which a value is explained, beside the page."""
+    return [
+        f'<aside id="explanation" tabindex="-1" hidden aria-label="{words("explanation", language)}">',
+        f'<button aria-label="{words("close", language)}">×</button><div class="body"></div></aside>',
     ]

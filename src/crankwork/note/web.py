@@ -54,7 +54,7 @@ def web(note: Note) -> bytes:
         f'<!DOCTYPE html>\n<html lang="{note.language}">\n<head>\n<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f'<meta name="generator" content="{xml_text(note.provenance)}">',
-        f"<title>{xml_text(note.title)}</title>\n<style>{look()}{style('page')}{STYLE}</style>\n</head>\n<body>",
+        f"<title>{xml_text(note.title)}</title>\n<style>{look()}{style('design')}{STYLE}</style>\n</head>\n<body>",
         *([] if results is None else bar(note.language)),
         "<main>",
     ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from collections.abc import Container, Iterable, Iterator, Mapping
 from typing import Any
 
@@ -31,11 +32,13 @@ from crankwork.locale import capital, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.captions import printed_unit
+from crankwork.note.closing import main_keys
 from crankwork.note.equations import definition_text, shown_values, symbolic, value_symbol, value_text
 from crankwork.note.explain import Place, has_own_symbol, meaning_of_argument, of_angle
 from crankwork.note.interactive import (
-    bar,
     controls,
+    drawer,
+    header,
     look,
     packed,
     page_data,
@@ -54,12 +57,22 @@ from crankwork.report.figures import drawings
 from crankwork.report.notices import notice_text, sentence_lists
 from crankwork.report.summary import by_subject, check_status, provenance, results_method
 from crankwork.show.animation import Animation
+from crankwork.show.canvas import SCREEN, use_layout
 from crankwork.show.inline import inline_film, inline_svg
 from crankwork.show.scene import Drawing
 from crankwork.show.theme import alt_text
 from crankwork.sources import cite
 from crankwork.units import UNITS, to_si
 
+# what the names of the figures of each tab have; all others are of motion
+_OF_TABS = {
+    "bearings": "_polar|_wear|crankpin_load",
+    "balance": "balance|phase_stars|unbalanced",
+    "torque": "torque|tangential|inertia|friction|moment|loops|work|speed|wittenbauer|campbell|torsional",
+    "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded",
+}
+_TABS = ("motion", "forces", "torque", "bearings", "balance")
+_CARDS = 6
 # angle at which formulas of all angles are written [deg]
 _SOMEWHERE = 33.0
 # rounding of a table, in units of the last decimal
@@ -260,6 +273,7 @@ class TraceExport:
 
 
 @in_own_units
+@use_layout(SCREEN)
 def page(
     results: Results, language: Language = "en", place: Place | None = None, moved: SliderDesigns | None = None
 ) -> bytes:
@@ -282,27 +296,28 @@ def page(
     if live is not None:
         trace.follow(live)
         marks, steps, is_filed = follow(live, results, data)
-    title, listed = html.escape(results.machine.title or "crankwork"), words("tables", language)
+    title, listed = title_of(results, language), words("tables", language)
+    explained = set(data["memories"]["keys"])
     parts = [
         f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f'<meta name="generator" content="{html.escape(provenance(results))}"><title>{title}</title>',
-        f"<style>{look()}{style('page', 'layout', *(['sliders'] if steps else []))}</style></head><body>",
-        f"<header><h1>{title}</h1><p>{html.escape(results_method(results, language))}</p></header>",
-        *bar(language),
-        '<div class="side">',
-        *([] if live is None or moved is None else _sliders(live, moved, language)),
+        f'<meta name="generator" content="{html.escape(provenance(results))}"><title>{html.escape(title)}</title>',
+        f"<style>{look()}{style('design', 'layout', *(['sliders'] if steps else []))}</style></head><body>",
+        *header(title, language, _contents(drawn, language)),
+        '<main><div class="first">',
         *([] if film is None else _machine(film, language, is_filed=is_filed)),
-        *_contents(drawn, language),
-        "</div><main>",
+        '<div class="side">',
+        *cards(results, explained, language, live),
+        *([] if live is None or moved is None else _sliders(live, moved, language)),
+        "</div></div>",
         *_figures(drawn, marks, language),
-        *values(results, set(data["memories"]["keys"]), language, live),
-        f'<section id="tables"><h2>{listed}</h2><p><select aria-label="{words("choice", language)}"></select></p>',
+        *values(results, explained, language, live),
+        f'<section id="tables"><h3>{listed}</h3><p><select aria-label="{words("choice", language)}"></select></p>',
         f'<div class="scroll" tabindex="0" role="region" aria-label="{listed}"><table></table></div></section>',
-        f'<p class="without">{words("without_script", language)}</p>',
-        f"<footer><p>{html.escape(provenance(results))}</p></footer></main>",
-        f'<aside id="explanation" tabindex="-1" hidden aria-label="{words("explanation", language)}">',
-        f'<button aria-label="{words("close", language)}">×</button><div class="body"></div></aside>',
+        f'</section><p class="without">{words("without_script", language)}</p>',
+        f"<footer><p>{html.escape(results_method(results, language))}; {html.escape(provenance(results))}</p></footer>",
+        "</main>",
+        *drawer(language),
         stored_data_element(data),
         f"<script>{steps}{script('slid' if steps else 'page')}</script></body></html>\n",
     ]
@@ -395,23 +410,47 @@ def _contents(drawn: dict[str, Drawing], language: Language) -> list[str]:
     return [f'<nav aria-label="{words("contents", language)}"><ul>', *links, "</ul></nav>"]
 
 
+def title_of(results: Results, language: Language) -> str:
+    """Return the name of a machine in a language, or as its file has it."""
+    own = getattr(results.machine.document, f"title_{language}")
+    return own or results.machine.title or "crankwork"
+
+
 def _figures(drawn: dict[str, Drawing], marks: dict[str, list[str]], language: Language) -> list[str]:
-    parts = [f'<section><h2>{words("diagrams", language)}</h2><div class="figures">']
+    """Return the tabs, the panels of those that have figures, and the beginning of that of the values."""
+    panels: dict[str, list[str]] = {tab: [] for tab in _TABS}
     for name, drawing in drawn.items():
         caption = f"<figcaption>{html.escape(capital(drawing.title))}</figcaption>"
         picture = inline_svg(drawing, name, drawing.title, marks.get(name, ()))
-        parts.append(f'<figure id="figure-{name}">{picture}{caption}</figure>')
-    return [*parts, "</div></section>"]
+        tab = next((tab for tab, names in _OF_TABS.items() if re.search(names, name)), "motion")
+        panels[tab].append(f'<figure id="figure-{name}">{picture}{caption}</figure>')
+    ends = {tab: f'<div class="figures">{"".join(all_)}</div></section>' for tab, all_ in panels.items() if all_}
+    tabs, parts = [f'<div role="tablist" aria-label="{words("diagrams", language)}">'], ["</div>"]
+    for tab, inside in (*ends.items(), ("all", "")):
+        shown = words(f"tab_{tab}", language)
+        tabs.append(f'<button role="tab" id="tab-{tab}" aria-controls="panel-{tab}">{shown}</button>')
+        parts.append(f'<section role="tabpanel" id="panel-{tab}" aria-labelledby="tab-{tab}"><h2>{shown}</h2>{inside}')
+    return tabs + parts
+
+
+def cards(results: Results, explained: Container[str], language: Language, live: LivePage | None = None) -> list[str]:
+    """Return the six single values that matter most."""
+    further = (key for key in results.summary if not key_of(key).quantity.endswith(("_angle", "_time")))
+    keys = list(dict.fromkeys([*main_keys(results), *further]))[:_CARDS]
+    parts = [f'<dl class="cards" aria-label="{words("results", language)}">']
+    for key in keys:
+        name, unit = label(display_key(key, results), language), unit_name(key_unit(key), language)
+        value = float(f"{displayed(key, results.summary[key]):.4g}")
+        shown = _shown_value(key, number(value, language), explained, live)
+        parts.append(f"<div><dt>{html.escape(capital(name))}</dt><dd>{shown} {html.escape(unit)}</dd></div>")
+    return [*parts, "</dl>"]
 
 
 def values(results: Results, explained: Container[str], language: Language, live: LivePage | None = None) -> list[str]:
     """Return single values, checks and notices as a section; `explained`: keys that can be explained."""
-    parts = [f'<section id="values"><h2>{words("values", language)}</h2><div class="values">']
+    parts = ['<section id="values"><div class="values">']
     for subject, values_of_subject in by_subject(results).items():
-        rows = [
-            _value_row(results, key, value, language, is_explained=key in explained, marks=_value_marks(live, key))
-            for key, value in values_of_subject.items()
-        ]
+        rows = [_value_row(results, key, value, language, explained, live) for key, value in values_of_subject.items()]
         parts += _small_table(translate(f"subjects.{subject}", language), rows)
     if results.checks:
         parts += _small_table(
@@ -441,19 +480,24 @@ def _value_marks(live: LivePage | None, key: str) -> tuple[str, str]:
     return ("", f' data-value="{html.escape(key)}"') if live.follows(key) else (' class="filed"', "")
 
 
+def _shown_value(key: str, shown: str, explained: Container[str], live: LivePage | None) -> str:
+    """Return a number as an element that is pressed to explain it, if it can be explained."""
+    mark = _value_marks(live, key)[1]
+    if key in explained:
+        quote = "" if key.replace("_", "").replace(".", "").isalnum() else '"'
+        return f"<button data-key={quote}{html.escape(key)}{quote}{mark}>{shown}</button>"
+    return f"<span{mark}>{shown}</span>" if mark else shown
+
+
 def _value_row(
-    results: Results, key: str, value: float, language: Language, *, is_explained: bool, marks: tuple[str, str]
+    results: Results, key: str, value: float, language: Language, explained: Container[str], live: LivePage | None
 ) -> str:
     name = html.escape(label(display_key(key, results), language))
-    shown = number(displayed(key, value), language)
-    if is_explained:
-        quote = "" if key.replace("_", "").replace(".", "").isalnum() else '"'
-        shown = f"<button data-key={quote}{html.escape(key)}{quote}{marks[1]}>{shown}</button>"
-    elif marks[1]:
-        shown = f"<span{marks[1]}>{shown}</span>"
+    shown = _shown_value(key, number(displayed(key, value), language), explained, live)
     unit = html.escape(unit_name(key_unit(key), language))
     # HTML closes cells itself
-    return f"<tr{marks[0]}><th>{name}<td>{symbol_html(value_symbol(key, language))}<td>{shown}<td>{unit}"
+    sign = symbol_html(value_symbol(key, language))
+    return f"<tr{_value_marks(live, key)[0]}><th>{name}<td>{sign}<td>{shown}<td>{unit}"
 
 
 def _check_row(results: Results, key: str, language: Language) -> str:

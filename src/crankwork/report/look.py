@@ -25,7 +25,18 @@ from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, link_label, row_name, symbol
-from crankwork.show.canvas import GREY, MM, WIDER, Canvas, current_layout, plain, points_per_mm, round_scale, text_width
+from crankwork.show.canvas import (
+    GREY,
+    MM,
+    WIDER,
+    Canvas,
+    current_layout,
+    is_narrow,
+    plain,
+    points_per_mm,
+    round_scale,
+    text_width,
+)
 from crankwork.show.chart import ChartBox, Graph, round_ticks, write_remark
 from crankwork.show.scene import DASH_DOT, Drawing, Pen, printable, rotation_arrow
 from crankwork.units import from_si
@@ -125,13 +136,14 @@ def axis_title(row: Quantity, language: Language) -> str:
 
 
 _TICKS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 90.0, 180.0, 360.0, 720.0, 1800.0, 3600.0)
-_MOST_TICKS, _AROUND, _BEYOND = 12, 0.5, 0.02
+# parts of an axis at most, on a page and in a column
+_MOST_TICKS, _AROUND, _BEYOND = (12, 8), 0.5, 0.02
 
 
 def angle_ticks(start: float, end: float) -> Array:
     """Return angles to mark between two, at most a dozen parts. [deg]"""
-    most = 10.0 ** math.ceil(math.log10((end - start) / _MOST_TICKS))
-    step = next((step_size for step_size in _TICKS if (end - start) / step_size <= _MOST_TICKS), most)
+    least = (end - start) / _MOST_TICKS[is_narrow()]
+    step = next((step_size for step_size in _TICKS if least <= step_size), 10.0 ** math.ceil(math.log10(least)))
     counts = range(math.ceil(start / step - 1e-9), math.floor(end / step + 1e-9) + 1)
     return np.array([count * step for count in counts])
 

@@ -252,7 +252,8 @@ class ChartLayout(NamedTuple):
 _TEXT_LAYOUT = ChartLayout()
 # widths of figures in millimetres: of a column and of a page, whose graphs are as tall as fits them
 WIDTHS = {"85": ChartLayout(85 / MM, 66.0, 10.0, 0.8), "170": _TEXT_LAYOUT}
-
+# on a screen, whose letters are as large on a phone as on a desk
+SCREEN = ChartLayout(88 / MM, 66.0, 10.0, 0.8)
 # scales for drawings as large as their paper allows
 FINE = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 

@@ -19,7 +19,8 @@ from crankwork.description.shorthand import linkage_of
 from crankwork.description.toml_edit import toml, with_table_entry
 from crankwork.description.value_types import Choice, Flag, MeasuredValue, Number, Quantity, Reader, Text
 from crankwork.errors import CrankworkError
-from crankwork.locale import Language, translate
+from crankwork.locale import LANGUAGES, Language, capital, decimal, translate
+from crankwork.locale.numbers import unit_name
 from crankwork.units import EXAMPLES, from_si
 
 _NUMBER = re.compile(r"\s*[+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?\s*")
@@ -27,6 +28,8 @@ _COMMA = re.compile(r"(\s*[+-]?[0-9]+),([0-9]+)(?![0-9.,])")
 _THOUSANDS = 3
 # coordinates of a point by index
 _AXES = {"1]": "x", "2]": "y"}
+# fields of titles in a language, whose keys are no words
+_TITLES = tuple(f"_{language}" for language in LANGUAGES)
 _LEAVES = (Quantity, Number, NumberOr, WordOr, Choice, Flag, Text)
 LETTERS = "BCDEFGHIJKLMNPQRSTUVWXYZ"
 # rated powers of asynchronous motors [kW] (IEC 60072-1)
@@ -47,7 +50,7 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
     for key in _keys(description, kinds):
         path, table, entry = _place(kinds, key)
         means = _meaning(kinds, path, language)
-        fresh = {"path": path, "means": means, "label": _label(path, means, language), "rows": [], "more": []}
+        fresh = {"path": path, "means": means, "label": _heading(kinds, path, language), "rows": [], "more": []}
         group = groups.setdefault(path, fresh)
         group["rows"].append(_row(description, key, table, entry, language))
     idle = idle_keys(kinds, kinds.read(values, "", Reader.of(values)) or Values({}, kinds))
@@ -115,6 +118,10 @@ def _row(
             row["options"] = ["false", "true"]
         case _:
             row |= _slid(kind, stated)
+    if "number" in row:
+        number_text, after = row["value"].removesuffix(row["after"]), row["after"].strip()
+        row["shown"] = decimal(number_text, language)
+        row["suffix"] = unit_name(row["unit"], language) if after.isascii() and " " not in after else after
     return row
 
 
@@ -143,9 +150,22 @@ def _slid(kind: object, stated: object) -> dict[str, Any]:
 
 
 def _label(name: str, means: str, language: Language) -> str:
-    """Return the label of a field: its key in English, otherwise the beginning of its meaning."""
-    first = re.split(r"[;:(,]| – | \S+ \[", means)[0].strip()
-    return first if first[:1].isalpha() and language != "en" else name
+    """Return the label of a field: its key as words in English, otherwise the beginning of its meaning."""
+    first = re.split(r"[;:(,]| – | \w+ \[", means)[0].strip()
+    if first[:1].isalpha() and (language != "en" or name.endswith(_TITLES)):
+        return capital(first)
+    return capital(name.replace("_", " ")) if means else name
+
+
+def _heading(kinds: TableSpec, path: str, language: Language) -> str:
+    """Return the heading of a table, with the names of the user in it."""
+    around, shown = "", []
+    for part in path.split("."):
+        name, _, number = part.partition("[")
+        own = _label(name, _meaning(kinds, f"{around}.{name}".lstrip("."), language), language)
+        shown.append(f"{own} {number}".rstrip("] "))
+        around = f"{around}.{part}".lstrip(".")
+    return " · ".join(shown)
 
 
 def _after(stated: str) -> str:

@@ -31,8 +31,8 @@ from crankwork import files
 from crankwork.browser import script, style
 from crankwork.description.machine_file import template, template_names, template_title
 from crankwork.errors import CrankworkError
-from crankwork.locale import LANGUAGES, ErrorMessage, Language, in_language, texts, translate
-from crankwork.note.interactive import bar, look
+from crankwork.locale import LANGUAGES, ErrorMessage, Language, capital, in_language, texts, translate
+from crankwork.note.interactive import drawer, header, look
 from crankwork.show.formats import FORMATS
 from crankwork.studio.session import Session, StoppedError
 
@@ -111,37 +111,39 @@ def _is_valid(entry: object) -> bool:
 
 def styles() -> str:
     """Return the style sheet of the studio."""
-    return look() + style("page", "sliders", "studio")
+    return look() + style("design", "studio")
 
 
 def _escaped(key: str, language: Language) -> str:
     """Return a text as it may stand in an attribute."""
-    return html.escape(translate(key, language))
+    return html.escape(capital(translate(key, language)))
 
 
 def shell(language: Language) -> str:
     """Return the page of the studio in a language."""
-    stored = json.dumps(dict(texts("studio", language)), ensure_ascii=False).replace("<", "\\u003c")
+    named = {**texts("studio", language), "text": capital(translate("help.value_text", language))}
+    stored = json.dumps(named, ensure_ascii=False).replace("<", "\\u003c")
     return "\n".join([
         f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8"><title>crankwork</title>',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<link rel="stylesheet" href="studio.css"><link rel="icon" href="data:,"></head><body>',
         *_header(language),
-        f'<div id="bar">{"".join(bar(language))}</div>',
         f'<p id="notice" role="alert" hidden></p><script type="application/json" id="words">{stored}</script>',
         "<main>",
         *_left(language),
         f'<section id="machine" aria-label="{_escaped("page.machine", language)}">',
         '<div id="film"></div><output id="chip" hidden></output>',
         '<p id="turn" hidden></p>',
-        f'<p class="hint">{_text("hint", language)}</p></section>',
-        f'<section id="diagrams" aria-label="{_escaped("page.diagrams", language)}">',
-        f'<select id="add" aria-label="{_text("add", language)}"></select><div class="figures"></div>',
+        f'<div class="tools"><button id="draw" aria-pressed="false">{_text("draw", language)}</button>',
+        f'<p class="hint">{_text("hint", language)}</p></div></section>',
+        f'<section id="diagrams" aria-label="{_escaped("page.diagrams", language)}"><div class="tools">',
+        f'<h2>{_escaped("page.results", language)}</h2><span id="pins"></span>',
+        f'<button id="pin">{_text("pin", language)}</button></div><div id="cards"></div><div class="figures"></div>',
+        f'<select id="add" aria-label="{_text("add", language)}"></select>',
         f'<details id="trial"><summary>{_text("vary", language)}</summary></details></section>',
-        f'<section id="results" aria-label="{_text("results", language)}"></section>',
-        f'<aside id="explanation" tabindex="-1" hidden aria-label="{_escaped("page.explanation", language)}">',
-        f'<button aria-label="{_escaped("page.close", language)}">×</button><div class="body"></div></aside>',
+        f'<section id="results" aria-label="{_escaped("page.values", language)}"></section>',
         "</main>",
+        *drawer(language),
         f'<dialog id="commands" aria-label="{_text("commands", language)}"><input role="combobox" aria-expanded="true"',
         f' aria-controls="found" aria-autocomplete="list" aria-label="{_text("commands", language)}">',
         f'<ul id="found" role="listbox" aria-label="{_text("commands", language)}"></ul></dialog>',
@@ -151,7 +153,7 @@ def shell(language: Language) -> str:
 
 
 def _text(key: str, language: Language) -> str:
-    return html.escape(translate(f"studio.{key}", language))
+    return _escaped("help.value_text" if key == "text" else f"studio.{key}", language)
 
 
 def _header(language: Language) -> list[str]:
@@ -162,21 +164,19 @@ def _header(language: Language) -> list[str]:
     languages = "".join(
         f'<option value="{key}" lang="{key}"{" selected" if key == language else ""}>{_OWN[key]}' for key in LANGUAGES
     )
-    return [
-        '<header><h1 id="title">crankwork</h1>',
-        f'<button id="all" aria-keyshortcuts="/" title="{_text("commands", language)}: /">',
-        f'<kbd aria-hidden="true">/</kbd> <span>{_text("commands", language)}</span></button>',
+    menu = [
         f'<select id="template" aria-label="{_text("template", language)}">',
         f'<option value="">{_text("template", language)}</option><optgroup label="{_text("recent", language)}" hidden>',
-        f'</optgroup><optgroup label="{_text("examples", language)}">{templates}</optgroup></select>',
-        f'<label class="button" tabindex="-1">{_text("open", language)}',
-        '<input id="open" type="file" accept=".toml,.txt,.pmks,text/plain"></label>',
-        *(f'<button id="{name}">{_text(name, language)}</button>' for name in ("save", "undo", "redo", "share", "pin")),
-        f'<span id="pins"></span><button id="draw" aria-pressed="false">{_text("draw", language)}</button>',
+        f'</optgroup><optgroup label="{_text("template", language)}">{templates}</optgroup></select>',
         f'<select id="export" aria-label="{_text("export", language)}" data-formats="{" ".join(FORMATS)}">',
         f'<option value="">{_text("export", language)}</option>{exports}</select>',
-        f'<select id="language" aria-label="{_text("language", language)}">{languages}</select></header>',
+        f'<button id="all" aria-keyshortcuts="/">{_text("commands", language)} <kbd>/</kbd></button>',
+        f'<label class="button" tabindex="-1">{_text("open", language)}',
+        '<input id="open" type="file" accept=".toml,.txt,.pmks,text/plain"></label>',
+        f'<button id="share">{_text("share", language)}</button>',
+        f'<select id="language" aria-label="{_text("language", language)}">{languages}</select>',
     ]
+    return header("crankwork", language, menu)
 
 
 def _left(language: Language) -> list[str]:
@@ -186,7 +186,13 @@ def _left(language: Language) -> list[str]:
         for name, chosen in (("form", "true"), ("text", "false"))
     )
     return [
-        f'<section id="description" aria-label="{_text("description", language)}"><div role="tablist">{tabs}</div>',
+        f'<section id="description" aria-label="{_escaped("page.sliders", language)}"><div class="tools">',
+        f'<div role="tablist">{tabs}</div>',
+        *(
+            f'<button id="{name}" aria-label="{_text(name, language)}">{sign}</button>'
+            for name, sign in (("undo", "↶"), ("redo", "↷"))
+        ),
+        f'<button id="save">{_text("save", language)}</button></div>',
         '<div id="form" role="tabpanel" aria-labelledby="form-tab"></div>',
         '<div id="text" role="tabpanel" aria-labelledby="text-tab" hidden><pre id="lines" aria-hidden="true"></pre>',
         f'<textarea id="source" spellcheck="false" wrap="off" aria-label="{_text("text", language)}"></textarea></div>',

@@ -30,7 +30,7 @@ from crankwork.note.explain import place_text
 from crankwork.note.interactive import controls, page_data
 from crankwork.note.options import NoteOptions
 from crankwork.note.sections import note_of, sheets_of, written_note
-from crankwork.page.document import TraceExport, follow, page, sentences, tables, values
+from crankwork.page.document import TraceExport, cards, follow, page, sentences, tables, title_of, values
 from crankwork.page.sliders import FAINT, LivePage, Slider, scale
 from crankwork.quantities.key import key_of
 from crankwork.report.display import in_own_units, key_unit
@@ -290,7 +290,8 @@ class Session:
         seen["data"]["tables"] = tables(results, seen["data"], language)
         warning = warning_text(results, language)
         return {
-            **seen, "title": results.machine.title, "method": results_method(results, language),
+            **seen, "title": title_of(results, language),
+            "cards": "".join(cards(results, results.trace, language)), "method": results_method(results, language),
             "dyads": dyads(results.machine) if results.machine.linkage else [], "places": _places(results),
             "names": {name: figure_title(name, language) for name in names},
             "values": "".join((*values(results, results.trace, language), *sentences(results, language))),
