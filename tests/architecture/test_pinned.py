@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "7e211c10f06b",
     "formulas": "eef1fe41620d",
-    "quantities": "ba1a2424d74a",
+    "quantities": "6e8cdc36acc7",
     "defaults": "56d384bb604c",
 }
 

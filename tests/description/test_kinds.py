@@ -34,7 +34,7 @@ def kinds_of(kind: object, seen: set[int]) -> Iterator[Quantity | Number]:
         for key in kind.keys.values():
             yield from kinds_of(key.kind, seen)
     elif isinstance(kind, NumberOr):
-        yield from (kind.quantity, kind.number)
+        yield from (kind.number, *kinds_of(kind.quantity, seen))
     else:
         for below in (getattr(kind, name, None) for name in ("entry", "other")):
             if below is not None:

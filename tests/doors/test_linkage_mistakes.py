@@ -265,4 +265,5 @@ def test_a_forgotten_centre_is_told_as_missing(crankwork, check_mistakes) -> Non
     Path("a.toml").write_text(text, encoding="utf-8")
     answer = crankwork("check", "a.toml")
     check_mistakes(answer)
-    assert 'links.coupler.centre: is missing; give two coordinates, like ["50 mm", "0 mm"]' in answer.err
+    fix = 'give a share of the length, as 0.5 for the middle, or two coordinates, like ["50 mm", "0 mm"]'
+    assert f"links.coupler.centre: is missing; {fix}" in answer.err

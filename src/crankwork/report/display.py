@@ -32,7 +32,7 @@ _OF_ORDERS = {
 # what is found in several ways
 _BY_WAY = ("excess_work", "flywheel_inertia", "whole_inertia")
 # what belongs to discs and shafts
-_TORSION = frozenset(row.key for row in SUBJECTS["torsion"])
+_TORSION, _PLANES = (frozenset(row.key for row in SUBJECTS[name]) for name in ("torsion", "balance"))
 # what valves let through per unit of time, of all cylinders or of one
 _DELIVERED = ("inlet_flow", "gas_mass_flow", "free_air_delivery", "isothermal_power")
 # key of the machine file: the quantity or word that it means, where that has another name
@@ -184,7 +184,9 @@ def _part(kind: str, name: str, language: Language) -> str:
         return ", ".join(link_label(part, language) for part in name.split("."))
     method_key = f"report.way_{name}"
     key = method_key if kind in _BY_WAY and has_text(method_key) else f"report.{name}"
-    return translate(key, language) if has_text(key) else own_name(kind, link_label(name, language))
+    if has_text(key):
+        return translate(key, language)
+    return own_name(kind, link_label(name, language) if kind in _PLANES else name)
 
 
 def link_label(link: str, language: Language) -> str:
