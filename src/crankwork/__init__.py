@@ -12,6 +12,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING
 
+from crankwork.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from crankwork.analysis.analyse import analyse, with_method
     from crankwork.analysis.compare import Comparison, compare
@@ -57,7 +59,6 @@ if TYPE_CHECKING:
     from crankwork.study.spread import Spreads, spread
     from crankwork.study.variants import Swept, sweep
 
-__version__ = "0.2.0"
 
 # Where each name lives; it is imported when first used, so that the command line starts fast.
 _HOMES = {

@@ -12,7 +12,7 @@ from crankwork.quantities.key import MOVED, RENAMED
 def test_version_and_date_are_the_same_everywhere(root):
     settings = tomllib.loads((root / "pyproject.toml").read_text("utf-8"))
     assert "version" in settings["project"]["dynamic"]
-    assert settings["tool"]["hatch"]["version"] == {"path": "src/crankwork/__init__.py"}
+    assert settings["tool"]["hatch"]["version"] == {"path": "src/crankwork/version.py"}
     released = re.search(r"^## \[(\d+\.\d+\.\d+)\] - (\S+)$", (root / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
     cited = re.search(
         r'^version: (\S+)\ndate-released: "(\S+)"$', (root / "CITATION.cff").read_text("utf-8"), re.MULTILINE

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Literal, TextIO
 
 import click
 
-from crankwork import __version__
 from crankwork.cli.options import (
     COMPARE,
     FIGURES,
@@ -54,6 +53,7 @@ from crankwork.errors import (
 )
 from crankwork.locale import ErrorMessage, Language, in_language, translate
 from crankwork.progress import counting, progress_bar, with_progress
+from crankwork.version import __version__
 
 if TYPE_CHECKING:
     from crankwork.show.scene import Drawing

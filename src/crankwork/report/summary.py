@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from crankwork import __version__
 from crankwork.analysis import Results
 from crankwork.analysis.assembly_modes import MOST_SIGNED, AssemblyMode, AssemblyModes
 from crankwork.analysis.rounding_noise import summary_without_rounding
@@ -28,6 +27,7 @@ from crankwork.report.display import (
 )
 from crankwork.report.notices import assumption_texts, idle_texts, notice_text, screen_lines, sentence_lists
 from crankwork.report.tables import comparison_data, comparison_text
+from crankwork.version import __version__
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
-from crankwork import __version__, files
+from crankwork import files
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.requested_values import with_requested
 from crankwork.description.document import (
@@ -31,6 +31,7 @@ from crankwork.study.search import SearchMethod
 from crankwork.study.variants import check_single
 from crankwork.study.varied_field import VariedField, level_of
 from crankwork.units import System, use_units
+from crankwork.version import __version__
 
 # designs of which all are kept if the file does not say
 _FEW = 100_000
