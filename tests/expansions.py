@@ -296,7 +296,7 @@ _DIRECTIONS = {
     "free_force_direction": math.pi,
 }
 # of what the file of an engine leaves open, and a drawing shows
-_OF_SHORTHAND = {"upright", "uneven_intervals"}
+_OF_SHORTHAND = {"upright", "uneven_intervals", "uneven_pair"}
 
 
 def _apart(key: str, first: Any, second: Any, engine: Results) -> Any:

@@ -465,6 +465,7 @@ ARGUMENTS: dict[str, Argument] = {
     "phi_fill": Argument("filling_factor"),
     "p_ind": Argument("indicated_mean_pressure"),
     "eta_ind": Argument("indicated_efficiency"),
+    "eta_t": Argument("thermal_efficiency"),
     "a_loss": Argument("mechanical_loss_constant"),
     "b_loss": Argument("mechanical_loss_slope"),
     "p_loss": Argument("mechanical_loss_pressure"),

@@ -16,8 +16,8 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "7e211c10f06b",
-    "formulas": "eef1fe41620d",
+    "symbols": "75100d5a2602",
+    "formulas": "df836a863aa2",
     "quantities": "6e8cdc36acc7",
     "defaults": "56d384bb604c",
 }

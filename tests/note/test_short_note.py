@@ -53,7 +53,7 @@ READ = {
 }  # fmt: skip
 # pages of the PDF in each language
 PAGES = {
-    "petrol-four": (14, 16, 17), "spark-engine": (10, 10, 11), "press-geometry": (15, 17, 16),
+    "petrol-four": (15, 16, 17), "spark-engine": (10, 10, 11), "press-geometry": (15, 17, 16),
     "slider-crank": (3, 3, 4), "press": (6, 6, 6),
 }  # fmt: skip
 NUMBER = re.compile(r"(−?\d+(?:[.,]\d+)?)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?")

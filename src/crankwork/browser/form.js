@@ -212,7 +212,8 @@ export class Form {
     [slider.min, slider.max, slider.step] = [low, high, step].map(String);
     slider.value = String(row.number);
     slider.dataset.unit = row.unit ?? "";
-    for (const [one, end] of [[slider.previousElementSibling, slider.min], [slider.nextElementSibling, slider.max]]) if (one) one.textContent = local(end).replace("-", "−");
+    const ends = [slider.previousElementSibling, slider.nextElementSibling];
+    ends.forEach((one, at) => one && (one.textContent = local(at ? slider.max : slider.min).replace("-", "−")));
   }
 
   /**

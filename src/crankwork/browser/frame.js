@@ -137,9 +137,11 @@ function fitted(now, [least, largest]) {
   const [low, high] = [Math.min(...now), Math.max(...now)];
   const [reachLow, reachHigh] = low > 0 || high < 0 ? [least, largest] : [Math.min(least, 0), Math.max(largest, 0)];
   const room = ROOM * (reachHigh - reachLow) || 1;
+  // places of what was drawn are rounded
+  const isZero = (/** @type {number} */ one) => Math.abs(one) <= 3e-4 * (reachHigh - reachLow);
   const slack = 1e-9 * (high - low);
   if (reachLow >= low - slack && reachHigh <= high + slack && reachHigh - reachLow >= FILLED * (high - low)) return now;
-  const ends = /** @type {Ends} */ ([reachLow === 0 ? 0 : reachLow - room, reachHigh === 0 ? 0 : reachHigh + room]);
+  const ends = /** @type {Ends} */ ([isZero(reachLow) ? 0 : reachLow - room, isZero(reachHigh) ? 0 : reachHigh + room]);
   return now[0] > now[1] ? [ends[1], ends[0]] : ends;
 }
 

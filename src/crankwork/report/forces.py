@@ -172,7 +172,7 @@ def _list_width() -> float:
 def _scale(plan: ForcePolygon, width: float, height: float) -> float:
     """Return the scale at which a polygon has room beside its list. [displayed unit/mm]"""
     # beside it letters stand between it and the list
-    room = np.array([width - _list_width() - 4 * _MARGIN, height - 2 * _MARGIN])
+    room = np.maximum([width - _list_width() - 4 * _MARGIN, height - 2 * _MARGIN], 1.0)
     return round_scale(float(points_per_mm() * np.max(np.ptp(_ends(plan), axis=0) / room)), FINE)
 
 

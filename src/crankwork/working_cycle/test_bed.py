@@ -115,6 +115,12 @@ def efficiency_of_powers(N_e: Value, N_ind: Value) -> Value:
     return N_e / N_ind
 
 
+@formula("relative_efficiency", _TEXT)
+def relative_efficiency(eta_ind: Value, eta_t: Value) -> Value:
+    """Indicated efficiency over that of the ideal cycle."""
+    return eta_ind / eta_t
+
+
 @formula("indicated_power", _TEXT)
 def indicated_of_brake(N_e: Value, eta_m: Value) -> Value:
     """Indicated power of a brake power."""
@@ -190,7 +196,7 @@ _RULES = (
     mean_pressure_of_power, (mean_pressure_of_power, "effective"), efficiency_of_powers, mechanical_loss_power,
     torque_of_power, fuel_of_volume, engine_size.fuel_rate, consumption_of_power, (consumption_of_power, "indicated"),
     engine_size.heat_supplied, (efficiency_of_powers, "effective"), (efficiency_of_powers, "indicated"),
-    otto_efficiency, (efficiency_of_powers, "relative"), charge_density, orifice_flow, measured_volumetric_efficiency,
+    otto_efficiency, relative_efficiency, charge_density, orifice_flow, measured_volumetric_efficiency,
     air_fuel_ratio, heat_of_coolant, heat_of_exhaust, speed_droop,
 )  # fmt: skip
 # of formulas that are used for several quantities: what their result and their arguments then are
@@ -201,9 +207,6 @@ _OTHERS: dict[tuple[str, str], dict[str, str]] = {
     ("efficiency_of_powers", "effective"): {"": "effective_efficiency", "N_ind": "heat_supplied"},
     ("efficiency_of_powers", "indicated"): {
         "": "indicated_efficiency", "N_e": "indicated_power", "N_ind": "heat_supplied",
-    },
-    ("efficiency_of_powers", "relative"): {
-        "": "relative_efficiency", "N_e": "indicated_efficiency", "N_ind": "thermal_efficiency",
     },
 }  # fmt: skip
 
