@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,12 +19,15 @@ from crankwork.report.figures import drawings
 from crankwork.report.forces import _separated_sides
 from crankwork.report.look import Style
 from crankwork.report.plans import position_plans, velocity_plan
+from crankwork.show.canvas import WIDTHS, use_layout
 from crankwork.show.scene import Text as SceneText
 from crankwork.show.scene import extent
 from each import for_each
 from linkages import FIRST, LINKAGES, SHAPER, mechanism_from
 from looks import said
 from shown import figures_of, in_parts, results_of
+
+STIRLING = Path(__file__).parents[2].joinpath("examples", "beta-stirling.toml").read_text("utf-8")
 
 
 @for_each("name", LINKAGES)
@@ -281,3 +285,9 @@ def test_every_plan_has_its_number_at_the_crank_pin_and_beside_each_guide(name, 
             apart = max(abs(one.left + one.width / 2 - other.left - other.width / 2) - (one.width + other.width) / 2,
                         abs(one.bottom - other.bottom) - (one.height + other.height) / 2)  # fmt: skip
             assert apart > -0.6, (texts[at].text,)
+
+
+def test_a_plan_of_forces_on_one_line_has_its_own_height_in_a_narrow_figure():
+    with use_layout(WIDTHS["85"]):
+        drawn = drawings(analyse(read_machine(STIRLING)), only={"force_plans"})["force_plans"]
+    assert 20.0 < drawn.height < 200.0
