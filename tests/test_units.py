@@ -63,6 +63,7 @@ DEFINED = {
     "mass": {"2 lb": 0.90718474, "2 slug": 2 * 14.593902937206364, "3 oz": 3 * 0.028349523125, "1 ton(US)": 907.18474,
              "1 ton(UK)": 1016.0469088, "1 blob": 175.12683524647636, "1 кгс·с²/м": 9.80665},
     "mass_per_area": {"15.87 g/cm2": 158.7},
+    "mass_per_length": {"60 кг/м": 60.0, "1 lb/in": 0.45359237 / 0.0254, "1 lb/ft": 0.45359237 / 0.3048},
     "inertia": {"0.2 кг·м²": 0.2, "5 lb*ft2": 5 * 0.45359237 * 0.09290304, "1 slug*ft2": 1.3558179483314004},
     "speed": {"60 об/мин": 2 * math.pi, "2300 vòng/phút": 2300 * math.pi / 30, "2300 vg/ph": 2300 * math.pi / 30,
               "60π rad/s": 60 * math.pi, "1 500 об/хв": 50 * math.pi},
@@ -243,7 +244,8 @@ SIZES = {
     "km/h": 1 / 3.6, "kg": 1.0, "g": 1e-3, "g/cm2": 10.0, "kg/m2": 1.0, "kg*m2": 1.0, "kg*m": 1.0, "N": 1.0,
     "N*m": 1.0, "MPa": 1e6, "Pa": 1.0, "J": 1.0, "kW": 1e3, "W": 1.0, "N/m": 1.0, "N*s/m": 1.0, "N*m*s/rad": 1.0,
     "N*m/rad": 1.0, "cm4": 1e-8, "m4": 1.0,
-    "kg/m3": 1.0, "MJ/kg": 1e6, "kJ/kg": 1e3, "J/kg": 1.0, "g/(kW*h)": 1e-3 / 3.6e6, "kg/J": 1.0, "kg/h": 1 / 3600,
+    "kg/m3": 1.0, "kg/m": 1.0, "lb/ft": 0.45359237 / 0.3048,
+    "MJ/kg": 1e6, "kJ/kg": 1e3, "J/kg": 1.0, "g/(kW*h)": 1e-3 / 3.6e6, "kg/J": 1.0, "kg/h": 1 / 3600,
     "kg/s": 1.0, "kW/l": 1e6, "W/m3": 1.0, "MPa/deg": 1e6 * 180 / math.pi, "Pa/rad": 1.0, "MPa*s/m": 1e6,
     "m3/min": 1 / 60, "m3/s": 1.0, "ft3/min": 4.719474432e-4,
     "Pa*s/m": 1.0, "cm3/K": 1e-6, "m3/K": 1.0, "m/(s*K)": 1.0, "W/(m2*K)": 1.0, "J/(kg*K)": 1.0, "kg/kmol": 1.0,
@@ -338,6 +340,8 @@ def test_a_weight_is_a_mass_where_one_is_asked_for() -> None:
     # the gravity of a course sheet: G2 = 30 N and g = 10 m/s2 are 3 kg there
     assert parse("30 N", ("mass",), gravity=10.0).value == pytest.approx(3.0, rel=1e-15)
     assert parse("5 kgf", ("mass",), gravity=10.0).value == pytest.approx(5.0, rel=1e-15)
+    assert parse("98.0665 N/m", ("mass", "mass_per_length"))[:3] == (pytest.approx(10.0), "mass_per_length", "kg/m")
+    assert parse("98.0665 N/m", ("stiffness",)).notice == ""
     assert parse("5 N", ("force",)).notice == ""
     with pytest.raises(ValueError, match="force"):
         parse("5 N", ("length",))

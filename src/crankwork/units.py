@@ -61,6 +61,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (10.0, "g/cm2 г/см2"), (1.0, "kg/m2 кг/м2"), (1e4, "kg/cm2 кг/см2"), (_LB / _IN**2, "lb/in2"),
         (_LB / _FT**2, "lb/ft2"),
     ],
+    "mass_per_length": [(1.0, "kg/m кг/м"), (_LB / _IN, "lb/in"), (_LB / _FT, "lb/ft")],
     "inertia": [
         (1.0, "kg*m2 kgm2 кг·м²"), (1e-4, "kg*cm2 кг·см²"), (1e-6, "kg*mm2 кг·мм²"), (1e-7, "g*cm2 г·см²"),
         (_LB * _FT**2, "lb*ft2 lbm*ft2"), (_LB * _IN**2, "lb*in2 lbm*in2"), (_SLUG * _FT**2, "slug*ft2 lbf*ft*s2"),
@@ -225,7 +226,7 @@ _IMPERIAL = {
     "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
     "N*m/rad": "lbf*in/rad", "cm4": "in4",
-    "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
+    "kg/m3": "lb/ft3", "kg/m": "lb/ft", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
     "l/s": "ft3/min",
     "m3/min": "ft3/min", "MPa/deg": "psi/deg", "MPa/mm": "psi/in", "J/deg": "ft*lbf/deg", "degC": "degF",
 }  # fmt: skip
@@ -292,6 +293,8 @@ _WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1
 # three digits to a group, and a multiple of pi: `10 000 N/m`, `60π rad/s`, `2π/3 rad`
 _GROUPS = re.compile(r"\s*[+-]?\d{1,3}(?:[ \u00a0\u2009\u202f]\d{3})+(?!\d)")
 _PI = re.compile(r"\s*([+-]?)(\d+(?:\.\d+)?)?\s*[*·]?\s*(?:π|pi\b)(?:\s*/\s*(\d+))?")
+# a weight and what it is the weight of
+_WEIGHTS = {"force": "mass", "stiffness": "mass_per_length"}
 _BARE = re.compile(rf"{_NUMBER}|[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?")
 
 
@@ -310,7 +313,7 @@ def parse(
 ) -> ParsedQuantity:
     """Parse a quantity.
 
-    `dimensions`: the valid dimensions; the first is used in the advice; a weight is accepted for a mass;
+    `dimensions`: valid dimensions; the first is used in the advice; a weight is accepted for a mass, also per length;
     `decimal_comma`: read `1,1 kg` as 1.1 kg. Otherwise a comma is an error, because it also separates thousands;
     `metric_hp`: read hp as 735.5 W instead of asking which one is meant; `gravity`: makes a mass of newtons [m/s2].
 
@@ -332,8 +335,8 @@ def parse(
         spelling, notice = "PS", "metric_horsepower"
     _ask_which(spelling, dimensions, number, name or "")
     unit = UNITS.get(spelling)
-    is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions and "force" not in dimensions
-    fits = unit is not None and (unit.dimension in dimensions or is_weight)
+    weighed = _WEIGHTS.get(unit.dimension, "") if unit is not None and unit.dimension not in dimensions else ""
+    fits = unit is not None and (unit.dimension in dimensions or weighed in dimensions)
     wanted = tuple(_dimension(dimension) for dimension in dimensions)
     known = ", ".join(spelling for dimension in dimensions for spelling in spellings(dimension))
     known += ", °C" * ("temperature" in dimensions)
@@ -354,8 +357,8 @@ def parse(
     if not math.isfinite(value):
         raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
     return (
-        ParsedQuantity(value / (gravity if {"N", "Н"} & {*spelling} else KGF), "mass", "kg", "weight")
-        if is_weight
+        ParsedQuantity(value / (gravity if {"N", "Н"} & {*spelling} else KGF), weighed, spellings(weighed)[0], "weight")
+        if weighed
         else ParsedQuantity(value, unit.dimension, spelling, notice)
     )
 

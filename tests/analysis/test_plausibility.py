@@ -11,7 +11,7 @@ from crankwork.report.notices import notice_text
 from expansions import ROOT, machine_files
 from machine_texts import POINTS_ENGINE
 
-CODES = ("implausible", "implausible_own", "firing_order")
+CODES = ("implausible", "implausible_own", "firing_order", "fast_work")
 # which limits no book has
 OWN = {"en": "(limits of this program)", "ru": "(границы этой программы)", "vi": "(giới hạn của chương trình này)"}
 
@@ -62,6 +62,21 @@ def test_a_firing_order_with_avoidable_moments_is_told_with_a_better_one():
 
     assert couple(better) == pytest.approx(0.0, abs=1e-12)
     assert couple([1, 2, 3, 4]) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(("stroke", "is_told"), [("growing", True), ("falling", False)])
+def test_work_on_the_faster_stroke_is_told(stroke, is_told):
+    description = Description(template("crank-shaper"))
+    [slider] = [key.split(".")[1] for key in description if key.startswith("sliders.") and key.endswith(".mass")][-1:]
+    plain = analyse(description)
+    high, low = (plain.summary[f"slider_displacement_{end}_angle.{slider}"] for end in ("max", "min"))
+    grows = math.degrees(high - low) % 360
+    description["loads"] = [{"kind": "process", "slider": slider, "stroke": stroke, "force": "1 kN"}]
+    notices = [item for item in analyse(description).notices if item.code == "fast_work"]
+    assert bool(notices) == is_told == ((grows < 180) == (stroke == "growing"))
+    if notices:
+        # the time ratio from the angles of the two dead positions
+        assert notices[0].values["ratio"] == pytest.approx(max(grows, 360 - grows) / min(grows, 360 - grows))
 
 
 def test_files_of_real_machines_are_plausible():

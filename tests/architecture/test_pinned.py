@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "75100d5a2602",
     "formulas": "df836a863aa2",
-    "quantities": "6e8cdc36acc7",
+    "quantities": "aa2680ee456c",
     "defaults": "56d384bb604c",
 }
 

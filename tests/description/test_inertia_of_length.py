@@ -1,4 +1,4 @@
-"""Moments of inertia as sheets state them: a share of m l^2 about the centre of mass, or of a bar about its end."""
+"""Masses and moments of inertia as sheets state them: per length, a share of m l^2, or of a bar about its end."""
 
 from pathlib import Path
 
@@ -68,7 +68,33 @@ def test_it_follows_mass_and_length_and_is_explained() -> None:
     assert "J_S,rocker = J_e,rocker − m_rocker·l_rocker·l_rocker/4" in explained
 
 
+@for_each("stated", ["425.1666666667 kg/m", "425.1666666667 кг/м", "4169.46069416711 N/m"])
+def test_a_mass_per_length_is_that_of_the_whole_link(stated: str) -> None:
+    # 255.1 kg over 0.6 m, and its weight with the standard gravity
+    machine = crankwork.read_machine(PRESS.replace("255.1 kg", stated))
+    assert next(member.mass for member in machine.linkage.members if member.name == "rod") == pytest.approx(255.1)
+    crank = CRANK.replace("5 kg", "80 kg/m").replace("CENTRE", "centre = 0.5")
+    assert crankwork.analyse(crankwork.read_machine(crank))["reduced_inertia"] == pytest.approx(4.8 * 0.06**2 / 3)
+
+
+def test_a_mass_per_length_follows_the_length_and_is_explained() -> None:
+    text = PRESS.replace("255.1 kg", "400 kg/m").replace(ROD, '"m l^2 / 12"')
+    lengths, keys = (0.58, 0.62), ["reduced_inertia_max", "joint_force_max.A"]
+    designs = crankwork.sweep(crankwork.Description(text), {"links.rod.length": lengths}, keys)
+    assert designs.reason == ""
+    for number, length in enumerate(lengths):
+        mass = 400 * length
+        plain = crankwork.analyse(crankwork.read_machine(
+            PRESS.replace(ROD, f'"{mass * length**2 / 12!r} kg*m2"').replace("255.1 kg", f"{mass!r} kg")
+            .replace('"600 mm"', f'"{length * 1e3} mm"')
+        ))  # fmt: skip
+        for key in keys:
+            assert designs.values[key][number] == pytest.approx(plain[key], rel=1e-9, abs=1e-12), key
+    assert "m_rod = m_l,rod·l_rod" in crankwork.analyse(crankwork.read_machine(text)).explain("reduced_inertia", 30)
+
+
 MISTAKES = {
+    PRESS.replace("81.6 kg", "81.6 kg/m"): "unit \"kg/m\" measures mass per length",
     PRESS.replace(ROD, '"m l^2 / 2"'): "links.rod.inertia: \"m l^2 / 2\" is not the moment of inertia of a link",
     PRESS.replace(ROD, '"m l"'): "links.rod.inertia: \"m l\" is not a number with a unit",
     PRESS.replace(ROD, '"m l^2 / 0"'): "links.rod.inertia: \"m l^2 / 0\" is not the moment",

@@ -151,7 +151,7 @@ def _conventions(results: Results) -> Iterator[Assumption]:
     machine = results.machine
     for member in machine.linkage.members if machine.linkage is not None else ():
         joints = [name for name in member.points if name != f"{member.name}.centre"]
-        of_length = {"centre": member.centre_share, "inertia": member.length_inertia}
+        of_length = {"mass": member.length_mass, "centre": member.centre_share, "inertia": member.length_inertia}
         stated = tuple(f"links.{member.name}.{key}" for key, value in of_length.items() if value)
         if stated and len(joints) > 2:
             yield Assumption("first_joints", stated, names=("".join(joints[:2]),))

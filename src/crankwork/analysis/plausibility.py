@@ -1,4 +1,4 @@
-"""Values of engines far outside normal design, each with the usual range."""
+"""Values far outside normal design, each with the usual range, and work on the faster of two strokes."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from crankwork.analysis.prepared import Notice
 from crankwork.analysis.results import Results
 from crankwork.cylinders.layout import Layout
 from crankwork.formula.traced_value import Input, in_order
+from crankwork.loads.load import ProcessForce
 from crankwork.machine import Machine
 
 
@@ -53,6 +54,8 @@ _STATED = {
     r"(gas\.points\.[^.]+|(chambers\..+\.)?cycle)\.(\w+_)?pressure": _Range("gas_pressure", 1e4, 1e8, _OWN),
     r"chambers\.(.*[._])?temperature": _Range("cylinder_temperature", 50.0, 4000.0, _OWN),
 }
+# time of the slower stroke over that of the faster one
+_CLEARLY_FASTER = 1.1
 # orders of how many cylinders are compared, and how much better another has to be
 _MOST_ORDERS, _BETTER, _ZERO = 6, 2.0, 1e-9
 
@@ -61,6 +64,7 @@ def implausible(results: Results) -> Iterator[Notice]:
     """Yield a notice for each value far outside normal design."""
     machine = results.machine
     yield from _impossible(results)
+    yield from _fast_work(results)
     file = machine.inputs() if machine.inputs is not None else None
     is_gauge = file is None or "gas.pressures" not in file.stated or file.stated["gas.pressures"].value == "gauge"
     for path, number in machine.stated.items():
@@ -96,6 +100,18 @@ def _impossible(results: Results) -> Iterator[Notice]:
             if reported.isdisjoint(known.key for known in made_of):
                 yield Notice("impossible", {"quantity": key, "value": value, "keys": ", ".join(keys[:6])})
             reported.add(key)
+
+
+def _fast_work(results: Results) -> Iterator[Notice]:
+    """Yield a notice for each process force on the clearly faster stroke of a slider."""
+    for number, load in enumerate(results.machine.loads, start=1):
+        if not isinstance(load, ProcessForce) or load.acts == "both":
+            continue
+        ratio = results.summary.get(f"time_ratio.{load.slider}", 1.0)
+        if ratio > _CLEARLY_FASTER:
+            high, low = (results.summary[f"slider_displacement_{end}_angle.{load.slider}"] for end in ("max", "min"))
+            if load.forward * ((high - low) % math.tau - math.pi) < 0:
+                yield Notice("fast_work", {"name": load.slider, "ratio": ratio, "path": f"loads[{number}].stroke"})
 
 
 def _outside(usual: _Range, value: float | None, machine: Machine) -> Iterator[Notice]:

@@ -62,7 +62,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.driver import DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.joints import links_of_points
-from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage
+from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage, MassPerLength
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.table_reader import linkage_from
 from crankwork.method import Method
@@ -514,6 +514,8 @@ def _curve(load: Values, key: str) -> LoadTable:
 def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, as the file has them
     """Return values with every quantity as its SI number."""
     match value:
+        case MeasuredValue(dimension="mass_per_length"):
+            return MassPerLength(value.value)
         case MeasuredValue():
             return value.value
         case dict():

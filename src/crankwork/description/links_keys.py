@@ -48,6 +48,7 @@ _PLACE = ListOf(COORDINATE, fewest=2, most=2)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
 _OF_MASS = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "centre": KeySpec(NameOr(_PLACE))}
+_MASS_OF_LINK = KeySpec(Quantity(("mass", "mass_per_length"), 1e-9, 1e6))
 _CENTRE = KeySpec(NumberOr(NameOr(_PLACE), Number(-10.0, 10.0)))
 _INERTIA = InertiaKind(Quantity(("inertia",), 0.0, 1e9))
 # bodies that turn about a pivot: all inertia counts, also that of the mass at its distance
@@ -66,6 +67,7 @@ _CRANK = TableSpec("driving", {
     "direction": KeySpec(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
     "points": KeySpec(MapOf(_PLACE)),
     **_TURNING,
+    "mass": _MASS_OF_LINK,
     "centre": _CENTRE,
     "inertia": _TURNING["inertia"]._replace(kind=_INERTIA),
     "from": KeySpec(_ANGLE),
@@ -124,6 +126,7 @@ _LINK = TableSpec("link", {
     "share": KeySpec(Number(-1e3, 1e3)),
     "of": KeySpec(NAME),
     **_MASS,
+    "mass": _MASS_OF_LINK,
     "centre": _CENTRE,
     "inertia": _MASS["inertia"]._replace(kind=_INERTIA),
 })  # fmt: skip

@@ -221,6 +221,7 @@ class Quantity(NamedTuple):
                 "path": key,
                 "text": value.strip(),
                 "value": parsed.value,
+                "unit": parsed.unit,
                 "gravity": gravity,
             }
             reader.notices.append((parsed.notice, values))

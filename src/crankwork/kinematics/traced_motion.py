@@ -300,9 +300,12 @@ def _chain(chain: Chain, paths: _Paths) -> Chain:
 def _body(body: Body, paths: _Paths) -> Body:
     path, name, member = paths.member(body.link), body.link, paths.members.get(body.link)
     mass = _stated(f"body_mass.{name}", body.mass, f"{path}.mass")
+    length = _of_first_joints(path, name, member.bar_length if member is not None else 0.0)
+    if member is not None and member.length_mass is not None:
+        per_length = given(f"mass_per_length.{name}", member.length_mass.value, f"{path}.mass")
+        mass = _untyped((per_length * length).named(f"body_mass.{name}"))
     if member is None or member.length_inertia is None:
         return replace(body, mass=mass, inertia=_stated(f"body_inertia.{name}", body.inertia, f"{path}.inertia"))
-    length = _of_first_joints(path, name, member.inertia_length)
     share = given(f"inertia_share.{name}", member.length_inertia.share, f"{path}.inertia")
     inertia = share * mass * length * length
     if member.length_inertia.about_end:

@@ -26,6 +26,12 @@ class LengthInertia(NamedTuple):
         return mass * length**2 * (self.share - (0.25 if self.about_end else 0.0))
 
 
+class MassPerLength(NamedTuple):
+    """A mass stated per length of a bar. [kg/m]"""
+
+    value: float
+
+
 @dataclass(frozen=True)
 class Member:
     """A link, or a piece that slides without turning on its guide."""
@@ -39,9 +45,10 @@ class Member:
     centre: str = ""  # Name of the point at the centre of mass; empty without mass
     # Its distance from the first joint over that of the second, if it is stated so [-]
     centre_share: float | None = None
-    # How the moment of inertia follows from the mass and the length, if it is stated so, and that length [m]
+    # How the mass and the moment of inertia follow from the length, if they are stated so, and that length [m]
+    length_mass: MassPerLength | None = None
     length_inertia: LengthInertia | None = None
-    inertia_length: float = 0.0
+    bar_length: float = 0.0
 
 
 @dataclass(frozen=True)

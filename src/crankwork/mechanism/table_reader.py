@@ -15,7 +15,7 @@ from crankwork.errors import Problem
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, Law, LinkMotor
 from crankwork.mechanism.dyads import Branch, Guide, Point
-from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage, Member
+from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage, MassPerLength, Member
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import structure
 
@@ -221,7 +221,7 @@ class _Reader:
         """
         if not any(name in table for name in _MASS):
             return member
-        mass = table.get("mass", 0.0)
+        member, mass = _weighed(table, member, places, 0.0)
         inertia = self._inertia(table)
         centre = table.get("centre", next(iter(places)))
         points, places = dict(member.points), dict(places)
@@ -299,7 +299,8 @@ class _Reader:
             return member
         if "mass" not in table:
             self._problem(f"{key}.mass", ErrorMessage("number_missing"))
-        mass, inertia = table.get("mass", 1.0), self._inertia(table)
+        member, mass = _weighed(table, member, member.points, 1.0)
+        inertia = self._inertia(table)
         centre = table.get("centre", next(iter(member.points), "") if member.guide else None)
         if not isinstance(centre, str):
             name, place = f"{member.name}.centre", _centre_place(centre or 0.0, member.points)
@@ -333,7 +334,7 @@ class _Reader:
         if stated.about_end and math.dist(places[member.centre], middle) > _SAME * length:
             self._problem(f"{key}.inertia", ErrorMessage("inertia_about_end"))
         own = stated.about_centre(member.mass, length)
-        return replace(member, inertia=own, length_inertia=stated, inertia_length=length)
+        return replace(member, inertia=own, length_inertia=stated, bar_length=length)
 
     def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
         key, through = f"guides.{name}", table.get("through", [0.0, 0.0])
@@ -373,6 +374,16 @@ class _Reader:
         for name in linkage.positions:
             if name in linkage.ground or name in placed:
                 self._problem(f"positions.{name}", ErrorMessage("position_known", name=name))
+
+
+def _weighed(table: Table, member: Member, places: Mapping[str, Point], without: float) -> tuple[Member, float]:
+    """Return a body and its mass [kg]; one stated per length is that of a bar between the first two places."""
+    mass = table.get("mass", without)
+    if not isinstance(mass, MassPerLength):
+        return member, mass
+    first, second, *_ = places.values()
+    length = math.dist(first, second)
+    return replace(member, length_mass=mass, bar_length=length), mass.value * length
 
 
 def _replaced(member: Member, points: Mapping[str, Point], mass: float, inertia: float, centre: str) -> Member:

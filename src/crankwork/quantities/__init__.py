@@ -91,6 +91,7 @@ _LINKAGE = (
     Quantity("body_inertia", "kg*m2", "Moment of inertia of one body about its centre of mass."),
     Quantity("end_inertia", "kg*m2", "Moment of inertia of one link about its end."),
     Quantity("centre_share", "", "Distance of the centre of mass from the first joint over that of the second."),
+    Quantity("mass_per_length", "kg/m", "Mass of a link over the distance of its first two joints."),
     Quantity("inertia_share", "", "Moment of inertia over the mass times the square of the length."),
     Quantity("centre_x", "mm", "Coordinate of the centre of mass of a body along the fixed x axis."),
     Quantity("centre_y", "mm", "Coordinate of the centre of mass of a body along the fixed y axis."),

@@ -34,8 +34,8 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
             shown[key] = ", ".join(label(name, language) for name in str(value).split(", "))
         elif key == "quantity":
             shown[key] = label(str(value), language)
-        elif key == "argument":
-            shown[key] = symbol(str(value), language)
+        elif key in ("argument", "unit"):
+            shown[key] = (symbol if key == "argument" else unit_name)(str(value), language)
         elif key == "angles":
             shown[key] = decimal(str(value), language).replace("-", "−")
         elif key in ("shift", "write"):
