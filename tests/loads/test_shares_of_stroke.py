@@ -29,6 +29,7 @@ RAM = 'kind = "process", slider = "ram", '
 WORKS = {
     RAM + 'at = [0.3, 1], force = "1 kN"': 70.0,
     RAM + 'at = ["1/3", 1], force = "1 kN"': 200 / 3,
+    RAM + 'at = ["5 %", "95%"], force = "1 kN"': 90.0,
     RAM + 'at = [0.25, 0.75], force = ["1 kN"], stroke = "falling"': 50.0,
     RAM + 'at = [0.25, 0.75], force = "1 kN", acts = "both"': 0.0,
     RAM + 'at = ["30 mm", "80 mm"], force = "1 kN"': 50.0,

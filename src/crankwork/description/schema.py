@@ -197,8 +197,9 @@ class NumberOr(NamedTuple):
     number: Number
 
     def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - a number or the other kind's type
-        """Return the number of a number or a fraction, and the quantity of all else."""
-        is_quantity = isinstance(value, list) or (isinstance(value, str) and not is_fraction(value))
+        """Return the number of a number, a fraction or a percentage, and the quantity of all else."""
+        is_number = isinstance(value, str) and (is_fraction(value) or value.rstrip().endswith("%"))
+        is_quantity = isinstance(value, list) or (isinstance(value, str) and not is_number)
         return (self.quantity if is_quantity else self.number).read(value, key, reader)
 
     def schema(self, language: Language, /) -> dict[str, Any]:
