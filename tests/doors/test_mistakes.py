@@ -12,6 +12,7 @@ from each import for_each
 # the original line of the template, what a user writes, the key blamed, and words of the advice
 MISTAKES = {
     "unknown key": ('radius = "45 mm"', 'radiuss = "45 mm"', "crank.radiuss", "unknown key; did you mean radius?"),
+    "key of another table": ("[piston]", '[piston]\nbore = "8 cm"', "piston.bore", "did you mean cylinder.bore?"),
     "unknown key like none": ("[piston]", "[piston]\ncolour = 3", "piston.colour", "unknown key; known here: mass"),
     "unknown table": ("[cylinder]", "[cylindre]", "cylindre", "unknown table; did you mean cylinder?"),
     "unknown table like none": ("[piston]", "[xyz]\n[piston]", "xyz", "unknown table; known here: title"),

@@ -25,7 +25,7 @@ from crankwork.description.machine_file import (
 )
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, Values, nearest_name, stated_numbers
 from crankwork.description.toml_edit import document, locate, with_value, without_key
-from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, is_fraction
+from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader
 from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from crankwork.locale import ErrorMessage
 
@@ -387,8 +387,7 @@ def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has 
     if isinstance(kind, ListOf) and kind.may_be_one and isinstance(now, str):
         kind = kind.entry
     if isinstance(kind, NumberOr):
-        is_quantity = isinstance(now, list) or (isinstance(now, str) and not is_fraction(now))
-        kind = kind.quantity if is_quantity else kind.number
+        kind = kind.kind_of(now)
     return kind.other if isinstance(kind, NameOr) else kind
 
 

@@ -156,6 +156,7 @@ def _build(values: dict[str, Any], reader: Reader) -> Machine | None:
         return None
     keys, values = file_keys(values), with_first_sizes(values, reader)
     values = _without_strangers(values, keys, reader)
+    reader.tables = keys.keys
     read_values = keys.read(resolve_file_columns(values, keys, reader), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader)
     weighs = any(code == "weight" for code, _ in reader.notices)

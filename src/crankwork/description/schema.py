@@ -198,9 +198,12 @@ class NumberOr(NamedTuple):
 
     def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - a number or the other kind's type
         """Return the number of a number, a fraction or a percentage, and the quantity of all else."""
+        return self.kind_of(value).read(value, key, reader)
+
+    def kind_of(self, value: object) -> ValueType:
+        """Return the type that a value is of."""
         is_number = isinstance(value, str) and (is_fraction(value) or value.rstrip().endswith("%"))
-        is_quantity = isinstance(value, list) or (isinstance(value, str) and not is_number)
-        return (self.quantity if is_quantity else self.number).read(value, key, reader)
+        return self.quantity if isinstance(value, list) or (isinstance(value, str) and not is_number) else self.number
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""
@@ -404,7 +407,11 @@ class TableSpec(NamedTuple):
         # many books call a power, torque or mean pressure at the shaft that of the brake
         nearest = name.replace("brake", "effective")
         nearest = nearest if nearest in self.keys else nearest_name(name, tuple(self.keys))
-        if nearest:
+        tables = {} if isinstance(value, dict) else {key: spec.kind for key, spec in reader.tables.items()}
+        others = [f"{key}.{name}" for key, kind in tables.items() if isinstance(kind, TableSpec) and name in kind.keys]
+        if len(others) == 1:
+            reader.add_error(path, ErrorMessage("unknown_key_near", nearest=others[0]), meant=others[0])
+        elif nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
             reader.add_error(path, ErrorMessage(f"unknown_{what}_near", nearest=nearest), meant=meant)
             # report mistakes inside a misspelt table too

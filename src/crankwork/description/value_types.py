@@ -108,6 +108,7 @@ class Reader:
         # standard deviations of values, and the tolerances from which they follow, by key [SI]
         self.deviations: dict[str, float] = {}
         self.tolerances: dict[str, float] = {}
+        self.tables: Mapping[str, Any] = {}  # What the tables of the file may have, by name
         self.more = 0
         self.decimal_comma, self.metric_hp, self.gravity = decimal_comma, metric_hp, gravity
         self.folder = folder or Path()
