@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.prepared import Notice
 from crankwork.errors import CrankworkError, RenamedKeyWarning, UnknownKeyError
 from crankwork.formula.calculation_lines import Snapshot
 from crankwork.formula.replay import Program
@@ -21,6 +20,7 @@ from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import ErrorMessage, Language
 from crankwork.method import Method
+from crankwork.preparation.prepared import Notice
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.key import MOVED, RENAMED, key_of
 from crankwork.units import coherent_unit
