@@ -10,8 +10,9 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from crankwork.registered import RegisteredMethod
 from crankwork.version import __version__ as __version__
 
 if TYPE_CHECKING:
@@ -180,10 +181,29 @@ __all__ = [
 ]
 
 
+# Where the methods of results live that show, write or explain them.
+_METHODS = {
+    "__repr__": ("report.notebook", "short_text"),
+    "_repr_html_": ("report.notebook", "page"),
+    "explain": ("note.explain", "explanation"),
+    "figure": ("report.notebook", "picture"),
+    "to_dataframe": ("report.dataset", "frame"),
+    "to_xarray": ("report.dataset", "dataset"),
+    "write": ("report.dataset", "write"),
+}
+
+
+def _imported(home: str, name: str) -> Any:  # noqa: ANN401 - of any kind
+    return getattr(importlib.import_module(f"crankwork.{home}"), name)
+
+
 def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module 'crankwork' has no attribute '{name}'")
-    return getattr(importlib.import_module(f"crankwork.{_HOMES[name]}"), name)
+    return _imported(_HOMES[name], name)
+
+
+RegisteredMethod.find = lambda name: _imported(*_METHODS[name])
 
 
 def __dir__() -> list[str]:

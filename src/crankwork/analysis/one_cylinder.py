@@ -29,7 +29,7 @@ from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.machine import Machine
 from crankwork.method import Method
 from crankwork.preparation import traced_inputs
-from crankwork.preparation.cylinder_gas import cycle_values, work_of_gas
+from crankwork.preparation.cylinder_gas import cycle_values, indicated_values
 from crankwork.preparation.piston_kinematics import HARMONICS, KINEMATICS
 from crankwork.preparation.prepared import relative_difference
 from crankwork.quantities.key import MOVED
@@ -206,12 +206,10 @@ def _forces(solved: TracedCylinder, over: CycleInterpolant) -> dict[str, TracedV
         values["rotating_inertia_force"] = trace["rotating_inertia_force"]
     mean = over.mean("crank_torque", "mean_torque")
     if solved.space is not None:
-        work = values["indicated_work"] = work_of_gas(trace, solved.space)
+        values |= (indicated := indicated_values(trace, solved.space, cycle))
         if solved.machine.angular_acceleration:
             # the torque that accelerates the parts is not periodic
-            mean = gas_formulas.mean_torque(work, cycle).named("mean_torque")
-        values["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, trace["swept_volume"])
-        power = values["indicated_power"] = gas_formulas.indicated_power(work, trace["speed"], cycle)
+            mean = gas_formulas.mean_torque(indicated["indicated_work"], cycle).named("mean_torque")
         valves = solved.machine.gas.valves if solved.machine.gas is not None else None
         if valves is not None:
             stated = StatedValves(valves, "gas.valves")
@@ -219,7 +217,9 @@ def _forces(solved: TracedCylinder, over: CycleInterpolant) -> dict[str, TracedV
             engine = solved.machine.engine
             if engine is None or len(engine.layout.places) == 1:
                 # the delivery of several cylinders is that of the engine
-                values |= stated.passed(inlet_flow(values["induced_volume"], trace["speed"], cycle), power)
+                values |= stated.passed(
+                    inlet_flow(values["induced_volume"], trace["speed"], cycle), indicated["indicated_power"]
+                )
     if solved.machine.engine is not None:
         return values | {"mean_torque": mean}
     largest = max(abs(values[f"crank_torque_{word}"].value) for word in ("max", "min"))

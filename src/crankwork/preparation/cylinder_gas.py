@@ -139,6 +139,18 @@ def work_of_gas(trace: Mapping[str, TracedValue], space: WorkingSpace) -> Traced
     return TracedValue(ProcedureValue(space.work, "work", (pressure, trace["cylinder_volume"])), "indicated_work")
 
 
+def indicated_values(
+    trace: Mapping[str, TracedValue], space: WorkingSpace, cycle: TracedValue
+) -> dict[str, TracedValue]:
+    """Return the indicated work of a cylinder, its mean pressure and its power; `cycle`: its angle [rad]."""
+    work = work_of_gas(trace, space)
+    return {
+        "indicated_work": work,
+        "indicated_mean_pressure": gas.indicated_mean_pressure(work, trace["swept_volume"]),
+        "indicated_power": gas.indicated_power(work, trace["speed"], cycle),
+    }
+
+
 def _path(solved: PreparedCylinder) -> str:
     """Return where the diagram is stated."""
     return solved.machine.gas.path if solved.machine.gas is not None else ""

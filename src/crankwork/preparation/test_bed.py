@@ -10,14 +10,14 @@ from crankwork.formula.calculation import Calculation
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import Input, ProcedureValue, TracedValue, given, in_order, total
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.loads.gas import indicated_mean_pressure, indicated_power, piston_area
+from crankwork.loads.gas import piston_area
 from crankwork.loads.indicator import DiagramError
 from crankwork.loads.measured_pressure import AMBIENT
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank
 from crankwork.preparation import traced_inputs
-from crankwork.preparation.cylinder_gas import gas_of_cylinder, work_of_gas
+from crankwork.preparation.cylinder_gas import gas_of_cylinder, indicated_values
 from crankwork.preparation.prepared import PreparedCylinder, WorkingSpace
 from crankwork.units import UNITS
 from crankwork.working_cycle.test_bed import MEASURED, contradictions, missing, work_test
@@ -60,10 +60,10 @@ def check_test(machine: Machine, cylinders: Sequence[PreparedCylinder]) -> None:
         known["bore"] = trace["bore"]
     if first.space is not None:
         spaces = (cylinder.space or first.space for cylinder in cylinders)
-        works = [work_of_gas(*item) for item in zip(traces, spaces, strict=True)]
         cycle = traced_inputs.cycle_angle(machine)
-        known["indicated_mean_pressure"] = indicated_mean_pressure(works[0], trace["swept_volume"])
-        known["indicated_power"] = indicated_power(total("", works), trace["speed"], cycle)
+        works = [indicated_values(*item, cycle) for item in zip(traces, spaces, strict=True)]
+        known |= works[0]
+        known["indicated_power"] = total("", [values["indicated_power"] for values in works])
         over = CycleInterpolant({"": trace["gas_pressure"]}, CrankGrid.from_degrees, machine.cycle)
         known["gas_pressure_max"] = over.extremes("")["_max"]
     worked_with_engine(machine, known, first.space)
