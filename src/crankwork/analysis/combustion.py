@@ -15,13 +15,7 @@ from crankwork.analysis.results import Listing, Results
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import (
-    Piecewise,
-    ProcedureValue,
-    Tabulated,
-    TracedValue,
-    given,
-)
+from crankwork.formula.traced_value import Piecewise, ProcedureValue, Tabulated, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.curves import hermite, hermite_slope

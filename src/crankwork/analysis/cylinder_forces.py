@@ -35,12 +35,7 @@ from crankwork.machine import Machine
 from crankwork.method import Method
 from crankwork.preparation import traced_inputs
 from crankwork.preparation.cylinder_gas import gas_of_cylinder
-from crankwork.preparation.piston_kinematics import (
-    KINEMATICS,
-    CylinderKinematics,
-    harmonic_trace,
-    inertia_acceleration,
-)
+from crankwork.preparation.piston_kinematics import KINEMATICS, CylinderKinematics, harmonic_trace, inertia_acceleration
 from crankwork.preparation.prepared import PreparedCylinder, prepare
 
 FORCES = (

@@ -42,16 +42,8 @@ from crankwork.preparation.given_torques import (
 from crankwork.preparation.prepared import Notice, PreparedMachine
 from crankwork.quantities.key import key_of
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import (
-    ExcessWork,
-    TrueSpeed,
-    acceleration_of_crank,
-    fluctuation_of_inertia,
-)
-from crankwork.shaft.torque_diagram import (
-    ShaftTorques,
-    TorqueDiagram,
-)
+from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, acceleration_of_crank, fluctuation_of_inertia
+from crankwork.shaft.torque_diagram import ShaftTorques, TorqueDiagram
 
 COLUMNS = (
     "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",

@@ -8,23 +8,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from crankwork.formula.cycle_interpolant import CycleInterpolant
-from crankwork.formula.traced_value import (
-    Piecewise,
-    TracedAngle,
-    TracedValue,
-    absent,
-    delayed,
-    given,
-    total,
-)
+from crankwork.formula.traced_value import Piecewise, TracedAngle, TracedValue, absent, delayed, given, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
 from crankwork.preparation import traced_inputs
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import (
-    ExcessWork,
-    excess_work,
-)
+from crankwork.shaft.fluctuation import ExcessWork, excess_work
 from crankwork.shaft.torque_diagram import (
     ShaftTorques,
     TorqueDiagram,
