@@ -10,8 +10,9 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from crankwork.registered import RegisteredMethod
 from crankwork.version import __version__ as __version__
 
 if TYPE_CHECKING:
@@ -60,65 +61,36 @@ if TYPE_CHECKING:
     from crankwork.study.variants import Swept, sweep
 
 
-# Where each name lives; it is imported when first used, so that the command line starts fast.
-_HOMES = {
-    "AppliedLoads": "loads.applied_loads",
-    "Comparison": "analysis.compare",
-    "CrankGrid": "kinematics.crank_grid",
-    "CrankworkError": "errors",
-    "Description": "description.document",
-    "DoubtfulError": "errors",
-    "GeometryError": "errors",
-    "InputError": "errors",
-    "Law": "mechanism.driver",
-    "LoadLaw": "loads.load",
-    "Machine": "machine",
-    "Mechanism": "mechanism.mechanism",
-    "Method": "method",
-    "MethodError": "errors",
-    "MissingExtraError": "errors",
-    "Motion": "kinematics.motion",
-    "MotionLaw": "mechanism.driver",
-    "NoteOptions": "note.options",
-    "Optimum": "study.optimise",
-    "Picture": "report.notebook",
-    "QUANTITIES": "quantities",
-    "RenamedKeyWarning": "errors",
-    "Results": "analysis",
-    "Segment": "mechanism.driver",
-    "SeveralSolutions": "study.solve",
-    "Solution": "study.solve",
-    "Spreads": "study.spread",
-    "Swept": "study.variants",
-    "UnknownKeyError": "errors",
-    "analyse": "analysis",
-    "compare": "analysis.compare",
-    "crank_shaper": "mechanism.catalog",
-    "figures": "report.figures",
-    "force_at": "loads.applied_loads",
-    "four_bar": "mechanism.catalog",
-    "json_schema": "description.machine_file",
-    "load": "description.document",
-    "note_of": "note.sections",
-    "optimise": "study.optimise",
-    "read": "description.machine_file",
-    "read_machine": "description.machine_file",
-    "scotch_yoke": "mechanism.catalog",
-    "slotted_press": "mechanism.catalog",
-    "solve": "study.solve",
-    "solve_several": "study.solve",
-    "spread": "study.spread",
-    "stephenson_six_bar": "mechanism.catalog",
-    "summary_text": "report.summary",
-    "sweep": "study.variants",
-    "template": "description.machine_file",
-    "template_names": "description.machine_file",
-    "toggle_press": "mechanism.catalog",
-    "watt_six_bar": "mechanism.catalog",
-    "whitworth": "mechanism.catalog",
-    "with_method": "analysis",
-    "written_note": "note.sections",
+# The names of each module, which is imported when one of them is first used, so that the command line starts fast.
+_MODULES = {
+    "analysis": "Results analyse with_method",
+    "analysis.compare": "Comparison compare",
+    "description.document": "Description load",
+    "description.machine_file": "json_schema read read_machine template template_names",
+    "errors": """CrankworkError DoubtfulError GeometryError InputError MethodError MissingExtraError RenamedKeyWarning
+                 UnknownKeyError""",
+    "kinematics.crank_grid": "CrankGrid",
+    "kinematics.motion": "Motion",
+    "loads.applied_loads": "AppliedLoads force_at",
+    "loads.load": "LoadLaw",
+    "machine": "Machine",
+    "mechanism.catalog": """crank_shaper four_bar scotch_yoke slotted_press stephenson_six_bar toggle_press
+                            watt_six_bar whitworth""",
+    "mechanism.driver": "Law MotionLaw Segment",
+    "mechanism.mechanism": "Mechanism",
+    "method": "Method",
+    "note.options": "NoteOptions",
+    "note.sections": "note_of written_note",
+    "quantities": "QUANTITIES",
+    "report.figures": "figures",
+    "report.notebook": "Picture",
+    "report.summary": "summary_text",
+    "study.optimise": "Optimum optimise",
+    "study.solve": "SeveralSolutions Solution solve solve_several",
+    "study.spread": "Spreads spread",
+    "study.variants": "Swept sweep",
 }
+_HOMES = {name: home for home, names in _MODULES.items() for name in names.split()}
 
 __all__ = [
     "AppliedLoads",
@@ -180,10 +152,29 @@ __all__ = [
 ]
 
 
+# Where the methods of results live that show, write or explain them.
+_METHODS = {
+    "__repr__": ("report.notebook", "short_text"),
+    "_repr_html_": ("report.notebook", "page"),
+    "explain": ("note.explain", "explanation"),
+    "figure": ("report.notebook", "picture"),
+    "to_dataframe": ("report.dataset", "frame"),
+    "to_xarray": ("report.dataset", "dataset"),
+    "write": ("report.dataset", "write"),
+}
+
+
+def _imported(home: str, name: str) -> Any:  # noqa: ANN401 - of any kind
+    return getattr(importlib.import_module(f"crankwork.{home}"), name)
+
+
 def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module 'crankwork' has no attribute '{name}'")
-    return getattr(importlib.import_module(f"crankwork.{_HOMES[name]}"), name)
+    return _imported(_HOMES[name], name)
+
+
+RegisteredMethod.find = lambda name: _imported(*_METHODS[name])
 
 
 def __dir__() -> list[str]:

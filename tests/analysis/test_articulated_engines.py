@@ -10,8 +10,8 @@ import pytest
 
 import crankwork
 from crankwork.analysis.cylinder_balance import engine_balance
+from crankwork.analysis.cylinder_forces import traced_cylinder
 from crankwork.analysis.cylinders import multi_cylinder_engine
-from crankwork.analysis.prepared import prepare
 from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.link_loads import OperatingState
@@ -31,7 +31,7 @@ def test_free_forces_are_what_the_throw_as_a_linkage_puts_on_the_frame():
     """Bodies of the throw move alone; the fixed pivot and the walls must take what accelerates them."""
     machine = replace(RADIAL, gas=None, engine=replace(RADIAL.engine, articulated_masses=OWN, rotating_share=0.0,
                                                        reciprocating_share=0.0))  # fmt: skip
-    whole = multi_cylinder_engine(prepare(machine, machine.method))
+    whole = multi_cylinder_engine(traced_cylinder(machine, machine.method))
     mechanism = throw_mechanism(whole.layout, whole.master.lengths, whole.engine.articulated_rods)
     bodies = [body_at("crank", machine.masses.crank, 0.0, "A")]
     for number, rod in enumerate(mechanism.dyads, start=1):

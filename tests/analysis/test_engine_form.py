@@ -12,8 +12,6 @@ import pytest
 
 import crankwork
 from crankwork import CrankGrid, analyse, read_machine, template
-from crankwork.analysis.cell_gas import linkage_paths, relocate
-from crankwork.analysis.cylinder_form import engine_form, engine_form_or_reason
 from crankwork.analysis.results import Results
 from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError, InputError, Problem
@@ -22,6 +20,8 @@ from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.lowering import NotCompiledError
 from crankwork.locale import LANGUAGES, in_language
 from crankwork.machine import Machine
+from crankwork.preparation.cell_gas import linkage_paths, relocate
+from crankwork.preparation.cylinder_form import engine_form, engine_form_or_reason
 from each import for_each
 from expansions import ROOT, differences, machine_files, mirrored, renamed, shuffled, turned, written
 from machine_texts import POINTS_ENGINE

@@ -11,12 +11,12 @@ import pytest
 import crankwork as cw
 from crankwork import CrankGrid, analyse, read_machine
 from crankwork.analysis import gas_chambers
-from crankwork.analysis.equal_cells import equal_cells
 from crankwork.analysis.operating_state import operating_state
 from crankwork.description.shorthand import expanded
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.formula.traced_value import Delayed
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.preparation.equal_cells import equal_cells
 from each import for_each
 from expansions import differences
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.prepared import prepare
+from crankwork.analysis.cylinder_forces import traced_cylinder
 from crankwork.analysis.second_routes import _bodies, _running
 from crankwork.description.shorthand import crank_mechanisms, expanded
 from crankwork.dynamics.force_system import system_joint_forces
@@ -26,7 +26,7 @@ LEANING = ["cylinder.inclination=30 deg", "method.weights=true", "crank.angular_
 @pytest.mark.parametrize("settings", [LEANING, ["engine.misfire=[1]"], ["cylinder.offset=8 mm"]])
 def test_they_are_those_of_the_linkage(settings):
     machine = crankwork.read_machine(FOUR, overrides=settings)
-    results, solved = crankwork.analyse(machine), prepare(machine, machine.method)
+    results, solved = crankwork.analyse(machine), traced_cylinder(machine, machine.method)
     grid = crankwork.CrankGrid.from_degrees(DEGREES)
     keys = [f"joint_force{part}.{pin}" for part in ("_x", "_y", "") for pin in ("crank_pin", "piston_pin")]
     found = results.columns_at(DEGREES, [*keys, "normal_force.piston_pin", "gas_force"])

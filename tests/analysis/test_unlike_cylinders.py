@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.prepared import prepare
+from crankwork.analysis.cylinder_forces import traced_cylinder
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.mechanism.mechanism import slider_crank
 
@@ -218,4 +218,4 @@ def test_the_calculation_of_the_cycle_is_compared_with_cylinders_as_calculated_t
 
 def test_a_machine_says_what_a_cylinder_is_solved_for():
     machine = of(FOUR, "engine.misfire=[1]")
-    assert prepare(machine, machine.method).space.calculated.values["effective_power"] > 50e3
+    assert traced_cylinder(machine, machine.method).space.calculated.values["effective_power"] > 50e3

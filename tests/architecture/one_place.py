@@ -24,7 +24,7 @@ from crankwork.quantities import QUANTITIES
 from rules import PACKAGE, source_trees
 
 # where values get their keys; `formula` passes them on
-PACKAGES = ("analysis", "cylinders", "dynamics", "loads", "shaft")
+PACKAGES = ("analysis", "cylinders", "dynamics", "loads", "preparation", "shaft")
 _READ = (*PACKAGES, "formula")
 # sizes of columns by quantity, no values
 _SIZES = "analysis.rounding_noise"

@@ -60,7 +60,8 @@ def _sections(place, node, said):
     if any(isinstance(one, ast.Call) and ast.unparse(one.func) == "formula" for one in node.decorator_list):
         return {"Notes"}
     path, _, name = place.split(":")
-    if path == "machine.py" or name.strip().partition(".")[0] in crankwork.__all__:
+    of_results = (path.removesuffix(".py").replace("/", "."), name.strip()) in crankwork._METHODS.values()
+    if path == "machine.py" or of_results or name.strip().partition(".")[0] in crankwork.__all__:
         return {*SECTION.findall(said)}
     return {"Examples", "Notes"}
 

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from crankwork import CrankGrid, analyse, read, template
+from crankwork.analysis.cylinder_forces import traced_cylinder
 from crankwork.analysis.cylinders import multi_cylinder_engine
-from crankwork.analysis.prepared import prepare
 from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError, InputError
 from crankwork.formula.replay import Program
@@ -134,7 +134,7 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
     assert expanded(again) == out
     machine = read(path, settings)
     engine, linkage = analyse(machine), of_linkage(read(again))
-    whole = multi_cylinder_engine(prepare(machine, machine.method))
+    whole = multi_cylinder_engine(traced_cylinder(machine, machine.method))
     # beside the corners of diagrams, where one side or the other is meant
     degrees = np.arange(0.3, machine.cycle, 7.5)
 

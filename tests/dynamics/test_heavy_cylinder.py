@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.gas_chambers import solve_linkage
 from crankwork.analysis.mechanism import operating_state
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.traced_motion import traced_motion
+from crankwork.preparation.linkage import solve_linkage
 from each import for_each
 
 MACHINES = Path(__file__).parents[1] / "machines"

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.gas_chambers import solve_linkage
 from crankwork.analysis.mechanism import operating_state
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.traced_motion import traced_motion
+from crankwork.preparation.linkage import solve_linkage
 from each import for_each
 from machine_texts import FIVE_BAR, analysed
 

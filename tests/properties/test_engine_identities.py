@@ -17,15 +17,15 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import crankwork
-from crankwork.analysis import columns, prepare
+from crankwork.analysis import columns, traced_cylinder
 from crankwork.analysis.cylinder_forces import COLUMNS
-from crankwork.analysis.piston_kinematics import HARMONICS
 from crankwork.dynamics.masses import CrankGearMasses, rod_inertia_excess, rod_small_end_mass
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, TEXTBOOK, Method
+from crankwork.preparation.piston_kinematics import HARMONICS
 from crankwork.report.tables import table_column
 from each import for_each
 
@@ -111,7 +111,7 @@ def machines(draw: st.DrawFn, *, has_gas: bool = True, is_steady: bool = False, 
 
 
 def _columns(machine: Machine, method: Method = EXACT, grid: CrankGrid = GRID) -> dict[str, Array]:
-    return columns(prepare(machine, method), grid)
+    return columns(traced_cylinder(machine, method), grid)
 
 
 def _assert_equal(one: Array, other: Array, tolerance: float, scale: float = 0.0) -> None:
@@ -418,7 +418,7 @@ def test_a_faster_engine_has_forces_larger_by_the_square(drawn: Drawn, k: float,
 @MANY
 @given(machines(is_upright=False), st.sampled_from(METHODS))
 def test_a_cycle_ends_as_it_began_bit_for_bit(drawn: Drawn, method: Method) -> None:
-    solved = prepare(drawn.machine, method)
+    solved = traced_cylinder(drawn.machine, method)
     ends = CrankGrid.from_degrees([0.0, 720.0])
     for key, (first, last) in columns(solved, ends, (*COLUMNS, *HARMONICS)).items():
         assert first == last or key == "crank_angle", key
@@ -432,7 +432,7 @@ def test_a_cycle_ends_as_it_began_bit_for_bit(drawn: Drawn, method: Method) -> N
 def test_the_two_orders_of_the_books_add_up_to_their_motion(drawn: Drawn, noun: str) -> None:
     r, l, _ = drawn.lengths  # noqa: E741
     machine = replace(drawn.machine, mechanism=slider_crank(r, l), angular_acceleration=0.0)
-    solved = prepare(machine, TEXTBOOK)
+    solved = traced_cylinder(machine, TEXTBOOK)
     first, second, whole = (f"piston_{noun}{part}" for part in ("_first_order", "_second_order", ""))
     found = columns(solved, GRID, (first, second, whole))
     _assert_equal(found[first] + found[second], found[whole], 1e-15)

@@ -1,10 +1,10 @@
 """The analysis of a machine: columns over the crank angle, summary, checks."""
 
 from crankwork.analysis.analyse import analyse, columns_only, value_only, with_method
-from crankwork.analysis.cylinder_forces import columns
-from crankwork.analysis.prepared import Notice, PreparedMachine, WorkingSpace, prepare
+from crankwork.analysis.cylinder_forces import columns, traced_cylinder
 from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import Array
+from crankwork.preparation.prepared import Notice, PreparedMachine, WorkingSpace
 
 __all__ = [
     "Array",
@@ -15,7 +15,7 @@ __all__ = [
     "analyse",
     "columns",
     "columns_only",
-    "prepare",
+    "traced_cylinder",
     "value_only",
     "with_method",
 ]

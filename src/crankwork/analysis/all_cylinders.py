@@ -17,11 +17,11 @@ from crankwork.analysis.cylinder_balance import (
     balance_trace,
     engine_balance,
 )
+from crankwork.analysis.cylinder_forces import TracedCylinder
 from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
 from crankwork.analysis.firing import delivery_trace, firing_listing, firing_trace, work_trace
 from crankwork.analysis.harmonics import harmonics_listing
 from crankwork.analysis.one_cylinder import analyse_engine, moved_work, with_measured
-from crankwork.analysis.prepared import Notice, PreparedCylinder
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.shaft_torque import (
@@ -38,6 +38,7 @@ from crankwork.formula.replay import Program, Samples
 from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Engine
+from crankwork.preparation.prepared import Notice
 
 _TORQUES = ("crank_torque.", "total_torque", "total_tangential_force", "journal_torque.", "crankpin_torque.")
 _WHOLE_VALUES = ("cylinder_count", "displacement", "indicated_power")
@@ -70,7 +71,7 @@ class EngineTrace(NamedTuple):
     @classmethod
     def of(
         cls,
-        solved: PreparedCylinder,
+        solved: TracedCylinder,
         followed_too: Mapping[str, TracedValue] = MappingProxyType({}),
         size_of: Mapping[str, str] = MappingProxyType({}),
         own: Mapping[str, TracedValue] = MappingProxyType({}),

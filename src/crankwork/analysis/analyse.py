@@ -10,15 +10,16 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from crankwork.analysis.cylinder_forces import traced_cylinder
 from crankwork.analysis.one_cylinder import analyse_engine, own_key, with_measured
 from crankwork.analysis.plausibility import implausible
-from crankwork.analysis.prepared import Notice, prepare
 from crankwork.analysis.results import Results
 from crankwork.errors import CrankworkError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.method import EXACT, Method
+from crankwork.preparation.prepared import Notice
 
 _IN_JOINTS = ("joint_force", "normal_force")
 
@@ -94,7 +95,7 @@ def _engine_of(machine: Machine, method: Method) -> Machine | None:
     if machine.lengths is not None or (method.is_exact and not machine.chambers):
         return None
     # most linkages are no engines
-    from crankwork.analysis.cylinder_form import engine_form_or_reason  # noqa: PLC0415
+    from crankwork.preparation.cylinder_form import engine_form_or_reason  # noqa: PLC0415
 
     form = engine_form_or_reason(machine, has_all=True)
     if isinstance(form, Machine):
@@ -111,7 +112,7 @@ def is_engine(machine: Machine) -> bool:
 
 def _located(results: Results, machine: Machine) -> Results:
     """Return results of the engine that a linkage is, their inputs where the linkage states them."""
-    from crankwork.analysis.cell_gas import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
+    from crankwork.preparation.cell_gas import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
 
     relocate(results.trace.values(), linkage_paths(machine))
     return results
@@ -128,7 +129,7 @@ def _in_other_form(machine: Machine, grid: CrankGrid, method: Method, *, is_engi
     if form is not None or machine.linkage is None:
         return None if form is None else _analysed(form, grid, None, None)
     # few linkages are engines
-    from crankwork.analysis.cylinder_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+    from crankwork.preparation.cylinder_form import engine_form  # noqa: PLC0415 - loaded where it is needed
 
     form = engine_form(machine)
     return None if form is None else _located(_analysed(form, grid, None, None), machine)
@@ -212,7 +213,7 @@ def columns_only(machine: Machine) -> Results:
         from crankwork.analysis.mechanism import linkage_columns  # noqa: PLC0415 - loaded where it is needed
 
         return linkage_columns(machine)
-    solved = prepare(machine, machine.method)
+    solved = traced_cylinder(machine, machine.method)
     grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     # in the joints of an engine there are the forces of other cylinders too
     of_all = _IN_JOINTS if machine.engine is not None else ()

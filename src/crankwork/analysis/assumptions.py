@@ -263,7 +263,7 @@ def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
     if results.machine.linkage is not None and _is_engine(stated):
         # the trace of an engine with friction or loads names the parts of the linkage that it is
         # few machines are calculated as another form
-        from crankwork.analysis.cell_gas import linkage_paths  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.preparation.cell_gas import linkage_paths  # noqa: PLC0415 - loaded where it is needed
 
         parts, ends = {key: _FACE.sub("", part) for key, part in linkage_paths(results.machine).items()}, (".", "[")
         in_trace |= {key for key in stated if key not in parts and not key.startswith("method.")}

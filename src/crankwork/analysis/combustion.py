@@ -10,18 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.prepared import Notice, PreparedCylinder, WorkingSpace
+from crankwork.analysis.cylinder_forces import TracedCylinder
 from crankwork.analysis.results import Listing, Results
 from crankwork.formula.calculation import Calculation
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import (
-    Piecewise,
-    ProcedureValue,
-    Tabulated,
-    TracedValue,
-    given,
-)
+from crankwork.formula.traced_value import Piecewise, ProcedureValue, Tabulated, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.curves import hermite, hermite_slope
@@ -29,6 +23,7 @@ from crankwork.loads.indicator import IndicatorDiagram
 from crankwork.loads.measured_pressure import closed_diagram
 from crankwork.loads.pressure_processing import treated_cycles
 from crankwork.machine import Gas
+from crankwork.preparation.prepared import Notice, WorkingSpace
 from crankwork.working_cycle import closed_gas
 from crankwork.working_cycle.burning_analysis import (
     BurningAnalysis,
@@ -333,7 +328,7 @@ def _burning(closed: _Closed, columns: Mapping[str, TracedValue]) -> tuple[dict[
     return values | wiebe, []
 
 
-def _polytropes(data: BurningAnalysis, solved: PreparedCylinder) -> Listing:
+def _polytropes(data: BurningAnalysis, solved: TracedCylinder) -> Listing:
     """Return the polytropes of the windows: from, to, exponent, scatter of the logarithm of the pressure."""
     program = Program({key: solved.trace[key] for key in ("cylinder_volume", "diagram_pressure")})
     knots, rows = solved.space.diagram.breaks if solved.space else np.empty(0), []
@@ -346,7 +341,7 @@ def _polytropes(data: BurningAnalysis, solved: PreparedCylinder) -> Listing:
     return Listing({key: np.array(column) for key, column in zip(keys, zip(*rows, strict=True), strict=True)})
 
 
-def _cycles(gas: Gas, solved: PreparedCylinder) -> Listing | None:
+def _cycles(gas: Gas, solved: TracedCylinder) -> Listing | None:
     """Return mean pressure, peak and its angle of every cycle of a recording; None of a single one."""
     if gas.measured is None or solved.space is None:
         return None

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.cylinder_forces import COLUMNS, columns
-from crankwork.analysis.piston_kinematics import HARMONICS
 from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
@@ -18,6 +17,7 @@ from crankwork.loads.curves import LoadCurve
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import IndicatorDiagram, Segment
 from crankwork.loads.load import ProcessForce
+from crankwork.preparation.piston_kinematics import HARMONICS
 from crankwork.shaft.flywheel import slope_largest, slope_least
 
 _HALF = 360.0

@@ -8,7 +8,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
 from crankwork.analysis.bearings import Bearing, bearing_size, loads_on_crankpin
 from crankwork.analysis.cylinder_forces import force_on_rod, inertia_at_big_end, joint_names, on_piston_pin
 from crankwork.analysis.cylinders import MultiCylinderEngine
@@ -31,6 +30,7 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import RodSwing
+from crankwork.preparation import traced_inputs
 from crankwork.quantities.key import key_of
 
 _ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_", "journal_share", "bearing_force_")

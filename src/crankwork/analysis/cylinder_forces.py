@@ -3,16 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 
-from crankwork.analysis import traced_inputs
-from crankwork.analysis.cylinder_gas import gas_trace, space_trace
-from crankwork.analysis.piston_kinematics import (
-    KINEMATICS,
-    CylinderKinematics,
-    harmonic_trace,
-    inertia_acceleration,
-)
-from crankwork.analysis.prepared import PreparedCylinder
 from crankwork.analysis.reduction import REDUCTION, cylinder_reduction
 from crankwork.analysis.results import Results
 from crankwork.cylinders.articulated import (
@@ -39,6 +31,12 @@ from crankwork.formula.traced_value import TracedValue, absent
 from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.piston import only_rod
+from crankwork.machine import Machine
+from crankwork.method import Method
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.cylinder_gas import gas_of_cylinder
+from crankwork.preparation.piston_kinematics import KINEMATICS, CylinderKinematics, harmonic_trace, inertia_acceleration
+from crankwork.preparation.prepared import PreparedCylinder, prepare
 
 FORCES = (
     "gas_pressure", "gas_force", "inertia_acceleration", "inertia_force", "weight_force", "transverse_weight",
@@ -54,13 +52,8 @@ def cylinder_trace(solved: PreparedCylinder) -> dict[str, TracedValue]:
 
     Source: kolchin_demidov_2008, ch. 6 and 7.
     """
-    moving = solved.moving
-    trace = dict(moving.trace)
-    moving = moving._replace(trace=trace)
-    trace |= space_trace(solved, moving)
-    trace |= harmonic_trace(solved)
-    if solved.space is not None:
-        trace |= gas_trace(solved, solved.space, moving)
+    trace = gas_of_cylinder(solved) | harmonic_trace(solved)
+    moving = solved.moving._replace(trace=trace)
     if solved.machine.masses is not None:
         trace |= _by_key(_masses(solved, solved.machine.masses, moving))
     if solved.machine.masses is not None or solved.space is not None:
@@ -75,7 +68,21 @@ def cylinder_trace(solved: PreparedCylinder) -> dict[str, TracedValue]:
     return trace
 
 
-def columns(solved: PreparedCylinder, grid: CrankGrid, keys: Iterable[str] = COLUMNS) -> dict[str, Array]:
+class TracedCylinder(PreparedCylinder):
+    """A crank gear with everything about it traced."""
+
+    @cached_property
+    def trace(self) -> dict[str, TracedValue]:
+        """Everything about the cylinder by key."""
+        return cylinder_trace(self)
+
+
+def traced_cylinder(machine: Machine, method: Method) -> TracedCylinder:
+    """Return the crank gear of a machine, made ready for a method."""
+    return prepare(machine, method, TracedCylinder)
+
+
+def columns(solved: TracedCylinder, grid: CrankGrid, keys: Iterable[str] = COLUMNS) -> dict[str, Array]:
     """Return columns of one cylinder at crank angles within one cycle. [SI]
 
     `keys`: which; those that the machine does not have are left out.
@@ -274,6 +281,6 @@ def force_functions(results: Results) -> dict[str, Array]:
     kolchin_demidov_2008, ch. 7.
     """
     solved = results.solved
-    if not isinstance(solved, PreparedCylinder):
+    if not isinstance(solved, TracedCylinder):
         raise MethodError("functions of the rod angle exist for an engine only; give the results of one")
     return columns(solved, results.grid, FACTORS)

@@ -7,8 +7,6 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
-from crankwork.analysis.cylinder_gas import work_of_gas
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.firing import is_even
@@ -17,6 +15,8 @@ from crankwork.formula.traced_value import ProcedureValue, TracedValue, given, t
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.gas import indicated_power, mean_torque
 from crankwork.loads.valves import StatedValves, inlet_flow
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.cylinder_gas import work_of_gas
 from crankwork.working_cycle.engine_size import displacement
 
 _LISTED = ("bank_axis", "crankpin_angle", "firing_angle", "firing_interval")
@@ -80,7 +80,7 @@ def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> di
 
 def work_trace(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the works of all cylinders, and their power and mean torque; empty if a cylinder has no gas."""
-    works = [work_of_gas(cylinder, cylinder.space) for cylinder in engine.cylinders if cylinder.space is not None]
+    works = [work_of_gas(cylinder.trace, cylinder.space) for cylinder in engine.cylinders if cylinder.space is not None]
     if len(works) < len(engine.cylinders):
         return {}
     cycle, several = traced_inputs.cycle_angle(engine.machine), len(works) > 1

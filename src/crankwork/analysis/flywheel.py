@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from crankwork.analysis import traced_inputs
 from crankwork.formula.traced_value import TracedValue, absent, given, total
 from crankwork.machine import Machine
+from crankwork.preparation import traced_inputs
 from crankwork.shaft import flywheel as formulas
 
 

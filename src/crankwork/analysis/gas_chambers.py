@@ -8,22 +8,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.cylinder_gas import cycle_values
-from crankwork.analysis.equal_cells import equal_cells
-from crankwork.analysis.mechanism_trace import driver_speed_and_acceleration, speed_of
-from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.dynamics.reduction import reduced_torque
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import TracedValue, absent, breakpoints_of, given, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
+from crankwork.kinematics.traced_motion import traced_mechanism
 from crankwork.loads import gas
 from crankwork.loads.chamber import Chamber, own_cycle
-from crankwork.loads.chamber_gas import ChamberGas, rate_by_angle, solve_chambers, stated_valves, with_equal_chambers
+from crankwork.loads.chamber_gas import ChamberGas, rate_by_angle, stated_valves
 from crankwork.loads.valves import inlet_flow, isothermal_efficiency
-from crankwork.machine import Machine
+from crankwork.preparation.cylinder_gas import cycle_values
+from crankwork.preparation.linkage import speed_of
+from crankwork.preparation.prepared import PreparedLinkage
 
 if TYPE_CHECKING:
     from crankwork.analysis.results import Results
@@ -31,30 +29,6 @@ if TYPE_CHECKING:
 _STEP = 1.0
 # behind a corner of the pressure, where there may be a jump [deg]
 _AFTER = 1e-6
-
-
-def traced_linkage(machine: Machine, motion: Motion) -> tuple[Motion, PreparedLinkage]:
-    """Return the traced motion of a linkage and the linkage made ready; equal cells are traced once.
-
-    `motion`: the same in numbers, over its whole range.
-    """
-    cells = equal_cells(machine)
-    traced = traced_motion(machine.mechanism, motion, machine.linkage, cells)
-    return traced, solve_linkage(machine, traced)
-
-
-def solve_linkage(machine: Machine, motion: Motion) -> PreparedLinkage:
-    """Return a linkage made ready, with the gas in its chambers over its traced motion."""
-    method = machine.method
-    speed = machine.speed * method.pi / math.pi
-    law = machine.mechanism.driver.law
-    period = machine.mechanism.period
-    turning = driver_speed_and_acceleration(machine, motion)
-    left_out = {name for part in motion.equal_parts for name in part.chambers.values()}
-    chambers = {name: chamber for name, chamber in machine.chambers.items() if name not in left_out}
-    filling = solve_chambers(chambers, machine.charges, motion, method.pi, law, period, turning)
-    filling = with_equal_chambers(filling, machine.chambers, motion.equal_parts)
-    return PreparedLinkage(machine, method, speed, filling)
 
 
 def gas_summary(solved: PreparedLinkage) -> dict[str, TracedValue]:
@@ -113,7 +87,7 @@ def _delivery(solved: PreparedLinkage, values: Mapping[str, TracedValue]) -> dic
             result["isothermal_efficiency"] = efficiency
     if solved.machine.stages is not None:
         # few machines have them
-        from crankwork.analysis.stages import stage_values  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.preparation.stages import stage_values  # noqa: PLC0415 - loaded where it is needed
 
         result |= stage_values(solved.machine, solved.machine.stages, {**values, **result})
     return result

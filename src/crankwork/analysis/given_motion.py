@@ -9,9 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.analysis import traced_inputs
-from crankwork.analysis.mechanism_trace import speed_of
-from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Results
 from crankwork.dynamics import reduction
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
@@ -28,6 +25,9 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Machine, TransferTable
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.linkage import speed_of
+from crankwork.preparation.prepared import Notice, PreparedMachine
 
 DYNAMICS = (
     "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",

@@ -8,10 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
 from crankwork.analysis.flywheel import extreme_speeds, recovery_torque_values, target_fluctuation, turning_inertia
 from crankwork.analysis.motor_choice import mean_power, motor_choice
-from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.speed import Balance, analyse_speed, excess_of, wheels_of, work_of
 from crankwork.errors import MethodError
@@ -19,218 +17,39 @@ from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import (
     AngleFunction,
-    Piecewise,
     ProcedureValue,
-    TracedAngle,
     TracedValue,
     absent,
     breakpoints_of,
-    delayed,
     given,
     in_order,
-    total,
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Machine
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.given_torques import (
+    COLUMN_OF,
+    NEGLIGIBLE,
+    constant_torque,
+    curve_of,
+    excess_of_torques,
+    impulsive_work,
+    torque_keys,
+    traced_torques,
+    work_scale,
+    works_at_once,
+)
+from crankwork.preparation.prepared import Notice, PreparedMachine
 from crankwork.quantities.key import key_of
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import (
-    ExcessWork,
-    TrueSpeed,
-    acceleration_of_crank,
-    excess_work,
-    fluctuation_of_inertia,
-)
-from crankwork.shaft.torque_diagram import (
-    ShaftTorques,
-    TorqueDiagram,
-    WorkStroke,
-    angle_in_plate,
-    force_of_slope,
-    peak_torque_of_work,
-    sheared_area_of_hole,
-    shearing_force,
-    torque_between_points,
-    torque_of_harmonic,
-    torque_of_work,
-)
-from crankwork.units import UNITS
-
-
-def torque_trace(machine: Machine, turning: ShaftTorques, table: str, key: str, w: TracedValue) -> TracedValue:
-    """Return a torque of a description over the angle, that of all cylinders."""
-    diagram = turning.diagrams[table]
-    single = _Torque(machine, diagram, table, key, w, turning.cycle).column()
-    parts = [
-        delayed(single, round(math.degrees(delay), 9), machine.cycle, f"{key}.{number}")
-        for number, delay in enumerate(diagram.delays, start=1)
-    ]
-    return total(key, parts)
-
-
-def works_at_once(machine: Machine, turning: ShaftTorques, table: str, key: str, w: TracedValue) -> TracedValue:
-    """Return the work of a period that is done at single angles."""
-    diagram = turning.diagrams[table]
-    torque = _Torque(machine, diagram, table, key, w, turning.cycle)
-    works = [torque.work(number) for number, stroke in enumerate(diagram.strokes, start=1) if not stroke.over]
-    return total("stroke_work", works * len(diagram.delays))
-
-
-def work_scale(machine: Machine, table: str) -> TracedValue:
-    """Return the work that a unit of area of a drawing represents, absent without a scale."""
-    work, torque, angle = (
-        traced_inputs.stated_value(machine, f"{table}.scale.{name}", f"{name}_scale")
-        for name in ("work", "torque", "angle")
-    )
-    is_product = work.is_absent and not (torque.is_absent or angle.is_absent)
-    return (torque * angle).named("work_scale") if is_product else work
-
-
-class _Torque:
-    """One torque of a description, traced."""
-
-    def __init__(
-        self, machine: Machine, diagram: TorqueDiagram, table: str, key: str, w: TracedValue, cycle: float
-    ) -> None:
-        self._machine, self._diagram, self._table, self._key, self._w = machine, diagram, table, key, w
-        self._times = round(cycle / diagram.period)
-        self._period, self._cycle = math.degrees(diagram.period), machine.cycle
-
-    def column(self) -> TracedValue:
-        """Return the torque of one cylinder."""
-        diagram = self._diagram
-        if diagram.points:
-            return self._through_points().named(self._key)
-        constant = _constant(self._machine, diagram, self._table, f"{self._key}.0", self._w)
-        parts = [constant] if diagram.constant else []
-        for number, (order, sine, cosine) in enumerate(diagram.harmonics, start=1):
-            path = f"{self._table}.harmonics[{number}]"
-            a, b = (
-                given(f"{key}.{order:g}", value, f"{path}.{name}") if value else absent(key)
-                for key, value, name in (("harmonic_sine", sine, "sin"), ("harmonic_cosine", cosine, "cos"))
-            )
-            k = given("harmonic_order", order, f"{path}.order")
-            part: TracedValue = torque_of_harmonic(a, b, k, TracedAngle().angle)
-            parts.append(part.named(f"{self._key}.order_{order:g}"))
-        for number, stroke in enumerate(diagram.strokes, start=1):
-            if stroke.over:
-                parts.extend(self._stretch(stroke, number))
-        return total(self._key, parts) if parts else absent(self._key)
-
-    def _through_points(self) -> TracedValue:
-        """Return the broken line through the points."""
-        laws, ends = [], []
-        for turn in range(self._times):
-            angle = TracedAngle().shifted(-turn * self._period).angle
-            for line in self._diagram.lines():
-                first, last = (self._point(index, moved) for index, moved in zip(line[:2], line.moved, strict=True))
-                laws.append(torque_between_points(first[0], last[0], angle, first[1], last[1]))
-                ends.append(turn * self._period + math.degrees(line.end))
-        ends[-1] = self._cycle
-        return TracedValue(Piecewise(ends, tuple(laws)), self._key)
-
-    def _point(self, index: int, moved: int) -> tuple[TracedValue, TracedValue]:
-        """Return torque and angle of a point, moved by some periods."""
-        angle, torque = self._diagram.points[index]
-        height = given(f"{self._key}.{index + 1}", torque, f"{self._table}.torque[{index + 1}]")
-        place = given(f"crank_angle.{index + 1}", angle, f"{self._table}.at[{index + 1}]")
-        if moved:
-            period = self._period_value()
-            place = (place + period if moved > 0 else place - period).named(f"crank_angle.{index + 1}")
-        return height, place
-
-    def _stretch(self, stroke: WorkStroke, number: int) -> list[TracedValue]:
-        """Return the torque of a working stroke, in each period."""
-        path, name = f"{self._table}.strokes[{number}]", f"{self._key}.stretch_{number}"
-        work, over, end = self.work(number), self._over(stroke, number), math.degrees(stroke.over)
-        zero, angle = absent(self._key), TracedAngle().angle
-        ends: list[TracedValue | float] = [over * math.degrees(1.0)]
-        if stroke.shape == "constant":
-            laws = [torque_of_work(work, over)]
-        else:
-            peak: TracedValue = peak_torque_of_work(work, over).named(f"{self._key}.peak")
-            start = absent("crank_angle")
-            top = (given("peak_share", stroke.peak, f"{path}.peak") * over).named("crank_angle.peak")
-            laws = []
-            if stroke.peak > 0:
-                laws.append(torque_between_points(zero, peak, angle, start, top))
-            if stroke.peak < 1:
-                laws.append(torque_between_points(peak, zero, angle, top, over))
-            if len(laws) == 2:
-                ends.insert(0, top * math.degrees(1.0))
-        if end < self._cycle - 1e-9:
-            laws, ends = [*laws, zero], [*ends, self._cycle]
-        single = TracedValue(Piecewise(ends, tuple(laws)), name)
-        begin = math.degrees(stroke.start)
-        return [
-            delayed(single, round(begin + turn * self._period, 9), self._cycle, f"{name}.{turn + 1}")
-            for turn in range(self._times)
-        ]
-
-    def work(self, number: int) -> TracedValue:
-        """Return the work of a stroke: stated, of an area of the drawing, or of shearing."""
-        path, scale = f"{self._table}.strokes[{number}]", work_scale(self._machine, self._table)
-        plain = given(f"stroke_work.{number}", self._diagram.strokes[number - 1].work, f"{path}.work")
-        work, strength = self._machine.stated.get(f"{path}.work"), self._of_stroke(number, "shear_strength")
-        energy = self._of_stroke(number, "shear_energy")
-        if not (energy.is_absent and strength.is_absent):
-            thickness, hole = (
-                self._of_stroke(number, "thickness", "plate_thickness"),
-                self._of_stroke(number, "hole_diameter"),
-            )
-            if hole.is_absent:
-                area = self._of_stroke(number, "cut_width") * thickness
-            else:
-                area = sheared_area_of_hole(self._machine.method.pi, hole, thickness)
-            area = area.named(f"sheared_area.{number}")
-            by_strength = not strength.is_absent
-            sheared = self._by_strength(number, strength, area, thickness) if by_strength else energy * area
-            return traced_inputs.checked(sheared, plain)
-        if not scale.is_absent and work is not None and UNITS[work.unit].dimension == "area":
-            return traced_inputs.checked(scale * given("drawn_area", work.value, f"{path}.work"), plain)
-        return plain
-
-    def _of_stroke(self, number: int, name: str, key: str = "") -> TracedValue:
-        """Return a number of a stroke, absent if it is not stated; `key`: of its quantity where that differs."""
-        return traced_inputs.stated_value(self._machine, f"{self._table}.strokes[{number}].{name}", key or name)
-
-    def _by_strength(
-        self, number: int, strength: TracedValue, area: TracedValue, thickness: TracedValue
-    ) -> TracedValue:
-        """Return the work of a stroke that shears an area by its strength, until the plate is cut through."""
-        depth = (self._of_stroke(number, "penetration") * thickness).named("sheared_depth")
-        force, longer = shearing_force(strength, area), self._of_stroke(number, "punch_slope")
-        if longer.is_absent:
-            return force.named(f"shearing_force.{number}") * depth  # type: ignore[no-any-return]
-        force = force_of_slope(force.named(f"flat_shearing_force.{number}"), depth, longer)
-        return force.named(f"shearing_force.{number}") * (depth + longer)  # type: ignore[no-any-return]
-
-    def _over(self, stroke: WorkStroke, number: int) -> TracedValue:
-        """Return the angle of a stroke: stated, of a time, of a part of the period, or of a punch in a plate."""
-        path = f"{self._table}.strokes[{number}].over"
-        plain, over = given(f"stroke_angle.{number}", stroke.over, path), self._machine.stated.get(path)
-        punch, period = self._of_stroke(number, "punch_stroke"), self._period_value()
-        if not punch.is_absent:
-            thickness = self._of_stroke(number, "thickness", "plate_thickness")
-            return traced_inputs.checked(angle_in_plate(thickness, period, punch), plain)
-        if over is not None and over.unit and UNITS[over.unit].dimension == "time":
-            return traced_inputs.checked(self._w * given("stroke_time", over.value, path), plain)
-        if over is not None and not over.unit:
-            return traced_inputs.checked(given("stroke_share", over.value, path) * period, plain)
-        return plain
-
-    def _period_value(self) -> TracedValue:
-        """Return the period of the torque."""
-        return given("cycle_angle", self._diagram.period, f"{self._table}.period")
-
+from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, acceleration_of_crank, fluctuation_of_inertia
+from crankwork.shaft.torque_diagram import ShaftTorques, TorqueDiagram
 
 COLUMNS = (
     "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
 )  # fmt: skip
-_COLUMN_OF = {"torque": "turning_moment", "load": "load_torque"}
 _STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
 _ROUNDED = 1e-9
-_NEGLIGIBLE = 1e-13
 # of figures: distance from a jump at which a curve is drawn [deg], and largest number of points
 _JUMP_OFFSET = 1e-7
 _MOST_DRAWN = 4000
@@ -301,15 +120,15 @@ def _per_cycle(machine: Machine, mean: TracedValue, excess: TracedValue) -> dict
 
 def _of_torque_curves(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turned:
     """Return the results of torques that are given at every angle."""
-    traced = {key: torque_trace(machine, turning, table, key, w) for table, key in _keys(turning)}
-    over = CycleInterpolant(traced, CrankGrid.from_degrees, machine.cycle)
-    means = {key: _mean(over, machine, turning, table, w) for table, key in _keys(turning)}
+    over = traced_torques(machine, turning, w)
+    traced = over.columns
+    means = {key: _mean(over, machine, turning, table, w) for table, key in torque_keys(turning)}
     mean = next(iter(means.values()))
     # a torque that is not given is constant
     drive, load = (traced.get(key, mean).named(key) for key in ("turning_moment", "load_torque"))
     columns = {"turning_moment": drive, "load_torque": load, "excess_torque": (drive - load).named("excess_torque")}
     net = columns["excess_torque"]
-    torque, result = _excess(turning, over)
+    torque, result = excess_of_torques(turning, over)
     own = turning_inertia(machine, "whole_inertia")
     balance = Balance(net, torque, own, Curve.constant(own.value, turning.cycle), result, sign=1.0)
     excess, turn = excess_of(balance), analyse_speed(machine, balance, w, mean, "extremes")
@@ -336,21 +155,11 @@ def _of_torque_curves(machine: Machine, turning: ShaftTorques, w: TracedValue) -
     return _Turned(columns, summary, between, checks, notices, listings)
 
 
-def _keys(turning: ShaftTorques) -> Iterator[tuple[str, str]]:
-    """Yield the tables that are given, each with the key of its column."""
-    yield from ((table, _COLUMN_OF[table]) for table in turning.diagrams)
-
-
-def _impulsive_work(diagram: TorqueDiagram) -> float:
-    """Return the work of a period that is done at one angle. [J]"""
-    return sum(stroke.work for stroke in diagram.strokes if not stroke.over) * len(diagram.delays)
-
-
 def _mean(over: CycleInterpolant, machine: Machine, turning: ShaftTorques, table: str, w: TracedValue) -> TracedValue:
     """Return the mean of a torque, with the work that is done at one angle."""
-    key, diagram = _COLUMN_OF[table], turning.diagrams[table]
+    key, diagram = COLUMN_OF[table], turning.diagrams[table]
     mean = over.mean(key, "mean_torque")
-    if not _impulsive_work(diagram):
+    if not impulsive_work(diagram):
         return mean
     at_once = works_at_once(machine, turning, table, key, w)
     period = given("cycle_angle", diagram.period, f"{table}.period")
@@ -358,68 +167,19 @@ def _mean(over: CycleInterpolant, machine: Machine, turning: ShaftTorques, table
     return evened if over.is_zero(key) else (mean.named("mean_torque.stretched") + evened).named("mean_torque")
 
 
-def _curve(over: CycleInterpolant, key: str) -> Curve:
-    return Curve.legendre(np.radians(over.edges), over.polynomials(key))
-
-
-def _excess(turning: ShaftTorques, over: CycleInterpolant) -> tuple[Curve, ExcessWork]:
-    """Return the excess torque less its mean, and the excess work with the work that is done at one angle."""
-    parts = {"torque": 1.0, "load": -1.0}
-    net = Curve.constant(0.0, turning.cycle)
-    for table, key in _keys(turning):
-        net = net + _curve(over, key) * parts[table]
-    result = excess_work(net)
-    low, _, high, _ = net.extremes()
-    if result.work <= _NEGLIGIBLE * turning.cycle * max(abs(low), abs(high)):
-        # a variation that is rounding is zero
-        net = Curve.constant(result.mean_torque, turning.cycle)
-        result = excess_work(net)
-    jumps = [
-        _sawtooth(item, turning.cycle) * parts[key] for key, item in turning.diagrams.items() if _impulsive_work(item)
-    ]
-    if not jumps:
-        return net - result.mean_torque, result
-    curve, at_once = result.curve, 0.0
-    for jump in jumps:
-        curve = curve + jump
-    for table, diagram in turning.diagrams.items():
-        at_once += parts[table] * _impulsive_work(diagram) / diagram.period
-    mean = result.mean_torque + at_once
-    combined = ExcessWork(curve, curve.extremes(), mean, mean * turning.cycle)
-    return net - mean, combined
-
-
-def _sawtooth(diagram: TorqueDiagram, cycle: float) -> Curve:
-    """Return the work that is done at single angles, less its mean over the angle, zero at an angle of zero."""
-    jumps = sorted(
-        ((stroke.start + delay) % diagram.period + index * diagram.period, stroke.work)
-        for index in range(round(cycle / diagram.period))
-        for stroke in diagram.strokes
-        if not stroke.over
-        for delay in diagram.delays
-    )
-    slope, done = sum(work for _, work in jumps) / cycle, 0.0
-    corners = [(0.0, 0.0)]
-    for angle, work in jumps:
-        corners += [(angle, done - slope * angle), (angle, done + work - slope * angle)]
-        done += work
-    corners.append((cycle, 0.0))
-    return Curve.linear(*zip(*corners, strict=True))
-
-
 def _extremes_of(traced: Mapping[str, TracedValue], over: CycleInterpolant) -> dict[str, TracedValue]:
     """Return the extremes of torques that are not constant."""
     values = dict[str, TracedValue]()
     for key, known in traced.items():
         if known.varies:
-            values |= _extremes(key, known, _curve(over, key))
+            values |= _extremes(key, known, curve_of(over, key))
     return values
 
 
 def _extremes(key: str, known: TracedValue, curve: Curve) -> dict[str, TracedValue]:
     """Return the extremes of a column, on both sides of its jumps."""
     low, at_low, high, at_high = curve.extremes()
-    result, negligible = dict[str, TracedValue](), _NEGLIGIBLE * max(abs(low), abs(high))
+    result, negligible = dict[str, TracedValue](), NEGLIGIBLE * max(abs(low), abs(high))
     for word, extreme, phi in (("max", high, at_high), ("min", low, at_low)):
         value = extreme if abs(extreme) > negligible else 0.0
         degrees = math.degrees(phi)
@@ -469,7 +229,7 @@ def _turning_points(energy: Curve) -> tuple[Array, Array]:
 
 def _notices(turning: ShaftTorques) -> Iterator[Notice]:
     """Yield notices of work that is done at one angle, and of works that differ."""
-    if any(_impulsive_work(diagram) for diagram in turning.diagrams.values()):
+    if any(impulsive_work(diagram) for diagram in turning.diagrams.values()):
         yield Notice("work_at_once", {})
     for name, diagram in turning.diagrams.items():
         if diagram.work < 0:
@@ -488,13 +248,13 @@ def _checks(
 ) -> dict[str, float]:
     """Return residuals between integrated works and energies and those of the diagrams in closed form."""
     (values, speed, inertia), cycle = balance, turning.cycle
-    works = {key: turning.diagrams[table].work_to for table, key in _keys(turning)}
+    works = {key: turning.diagrams[table].work_to for table, key in torque_keys(turning)}
     angles = np.linspace(0.0, cycle, 721)[:-1] + cycle / 1440
     end = np.array([cycle])
     size = max((float(np.ptp(np.append(work(angles), work(end)))) for work in works.values()), default=0.0) or 1.0
     residuals = {
-        key: abs(over.integral(key) + _impulsive_work(diagram) * cycle / diagram.period - float(works[key](end)[0]))
-        for (_, key), diagram in zip(_keys(turning), turning.diagrams.values(), strict=True)
+        key: abs(over.integral(key) + impulsive_work(diagram) * cycle / diagram.period - float(works[key](end)[0]))
+        for (_, key), diagram in zip(torque_keys(turning), turning.diagrams.values(), strict=True)
     }
     sense = {"turning_moment": 1.0, "load_torque": -1.0}
     energy = np.zeros_like(angles)
@@ -518,7 +278,7 @@ def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Tu
     summary, listings, between = _given_values(machine, w), dict[str, Listing](), dict[str, TracedValue]()
     mean = absent("mean_torque")
     if diagram.constant:
-        mean = summary["mean_torque"] = _constant(machine, diagram, table, "mean_torque", w)
+        mean = summary["mean_torque"] = constant_torque(machine, diagram, table, "mean_torque", w)
         summary |= _power(machine, turning, mean, w)
     checks = {}
     if diagram.loops:
@@ -549,15 +309,6 @@ def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Tu
         summary["crank_speed_max"], summary["crank_speed_min"] = w + delta * w / 2, w - delta * w / 2
         summary |= recovery_torque_values(machine, inertia, w, summary)
     return _Turned({}, summary, between, checks, notices, listings)
-
-
-def _constant(machine: Machine, diagram: TorqueDiagram, table: str, key: str, w: TracedValue) -> TracedValue:
-    """Return a constant torque that is stated, or that of a power."""
-    power, plain = (
-        traced_inputs.stated_value(machine, f"{table}.power", "shaft_power"),
-        given(key, diagram.constant, f"{table}.constant"),
-    )
-    return plain if power.is_absent else traced_inputs.checked(power / w, plain)
 
 
 def _of_loops(machine: Machine, diagram: TorqueDiagram, table: str) -> tuple[TracedValue, list[TracedValue]]:

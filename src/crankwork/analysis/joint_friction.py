@@ -10,7 +10,6 @@ import numpy as np
 
 from crankwork.analysis.mechanism_trace import joint_columns
 from crankwork.analysis.operating_state import operating_state
-from crankwork.analysis.prepared import Notice, PreparedLinkage, relative_difference
 from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import (
     Friction,
@@ -47,6 +46,7 @@ from crankwork.kinematics.traced_motion import interpolant_of
 from crankwork.loads.applied_loads import AppliedLoads, force_on_slider, torque_on
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
+from crankwork.preparation.prepared import Notice, PreparedLinkage, relative_difference
 
 # rows whose changes of sign divide the cycle
 _CHANGES = ("margin", "ideal", "torque", "another")

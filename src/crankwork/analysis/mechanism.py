@@ -11,11 +11,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis import traced_inputs
 from crankwork.analysis.bearings import ON_CRANKPIN, BearingCycle
 from crankwork.analysis.counterweight_balance import counterweight_balance
-from crankwork.analysis.equal_cells import with_equal_columns
-from crankwork.analysis.gas_chambers import gas_check, gas_summary, traced_linkage
+from crankwork.analysis.gas_chambers import gas_check, gas_summary
 from crankwork.analysis.given_motion import DYNAMICS
 from crankwork.analysis.harmonics import delivered_harmonics, listed_harmonics
 from crankwork.analysis.joint_bearings import FOLLOWED as BEARING_COLUMNS
@@ -23,21 +21,17 @@ from crankwork.analysis.joint_bearings import JointBearings, bearings_of
 from crankwork.analysis.joint_friction import COLUMNS as FRICTION
 from crankwork.analysis.joint_friction import FOLLOWED as FOLLOWED_FRICTION
 from crankwork.analysis.joint_friction import FrictionColumns, add_friction, mean_values
-from crankwork.analysis.mechanism_trace import linkage_trace, speed_of, traced_state
+from crankwork.analysis.mechanism_trace import linkage_trace, traced_state
 from crankwork.analysis.motion_range import (
-    ReachableMotion,
     SingularColumns,
     clear_of_changes,
-    find_reachable_motion,
     find_singular_columns,
     limits_of,
-    open_range,
     rows_inside,
     with_limits,
 )
 from crankwork.analysis.motor_choice import motor_of_crank
 from crankwork.analysis.operating_state import operating_state
-from crankwork.analysis.prepared import Notice, PreparedLinkage
 from crankwork.analysis.pump_flow import COLUMNS as FLOWS
 from crankwork.analysis.pump_flow import flow_columns, flow_values
 from crankwork.analysis.results import Deferred, Results
@@ -78,6 +72,11 @@ from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import FourBarType, grashof, mobility
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.equal_cells import with_equal_columns
+from crankwork.preparation.linkage import speed_of, traced_linkage
+from crankwork.preparation.prepared import Notice, PreparedLinkage
+from crankwork.preparation.reachable_motion import ReachableMotion, find_reachable_motion, open_range
 from crankwork.quantities.key import key_of
 
 _DENSE_STEP = 1.0

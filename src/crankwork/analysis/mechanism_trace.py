@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
-from crankwork.analysis import traced_inputs
 from crankwork.analysis.counterweight_balance import shaking
 from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.operating_state import is_shared, traced_joint_forces
-from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.analysis.transmission_quality import transmissions
 from crankwork.dynamics import reduction
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
 from crankwork.dynamics.link_loads import OperatingState, link_angular_acceleration
 from crankwork.dynamics.reaction import JointForces, pin_columns
-from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given, reached
+from crankwork.formula.traced_value import Piecewise, TracedValue, absent, reached
 from crankwork.kinematics import kinematic_coefficients as rates
 from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.instant_centres import instant_centres
@@ -29,6 +26,9 @@ from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.joints import SlidingJoint, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.linkage import driver_speed_and_acceleration
+from crankwork.preparation.prepared import PreparedLinkage
 
 # result of a driver, by whether it turns
 DRIVEN = {False: "driver_force", True: "driver_torque"}
@@ -41,14 +41,6 @@ def traced_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:
     mechanism = traced_mechanism(machine.mechanism, machine.linkage)
     loads = applied_loads(mechanism, motion, machine.loads, w).also(solved.filling.loads(mechanism, motion))
     return OperatingState(mechanism, motion, w, loads, eps)
-
-
-def driver_speed_and_acceleration(machine: Machine, motion: Motion) -> tuple[TracedValue, TracedValue]:
-    """Return speed and acceleration of the driver's coordinate."""
-    if motion.driver is not None:
-        _, rate, change = motion.driver
-        return rate, change
-    return speed_of(machine), traced_inputs.acceleration(machine)
 
 
 def linkage_trace(solved: PreparedLinkage, running: OperatingState) -> dict[str, TracedValue]:
@@ -80,13 +72,6 @@ def _by_law(solved: PreparedLinkage, running: OperatingState, law: Law) -> dict[
         driven = torque.named(DRIVEN[machine.mechanism.driver.turns])
         columns |= {driven.key: driven, "driver_power": reduction.driver_power(driven, rate), **forces}
     return columns
-
-
-def speed_of(machine: Machine) -> TracedValue:
-    """Return the angular speed of the crank, with the method's own pi."""
-    if machine.method.pi == math.pi and not machine.stated:
-        return given("speed", machine.speed, "crank.speed")
-    return traced_inputs.speed(machine, machine.method)
 
 
 def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) -> Iterator[tuple[str, TracedValue]]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from crankwork.analysis import traced_inputs
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
 from crankwork.machine import Machine
+from crankwork.preparation import traced_inputs
 from crankwork.shaft import motor
 
 # share of the largest torque below which a mean is rounding

@@ -8,12 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
-from crankwork.analysis.cylinder_forces import COLUMNS, FORCES
-from crankwork.analysis.cylinder_gas import cycle_values, work_of_gas
+from crankwork.analysis.cylinder_forces import COLUMNS, FORCES, TracedCylinder, traced_cylinder
 from crankwork.analysis.motor_choice import motor_of_crank
-from crankwork.analysis.piston_kinematics import HARMONICS, KINEMATICS
-from crankwork.analysis.prepared import PreparedCylinder, prepare, relative_difference
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Results
 from crankwork.analysis.speed import delivered_or_needed
@@ -32,6 +28,10 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.machine import Machine
 from crankwork.method import Method
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.cylinder_gas import cycle_values, indicated_values
+from crankwork.preparation.piston_kinematics import HARMONICS, KINEMATICS
+from crankwork.preparation.prepared import relative_difference
 from crankwork.quantities.key import MOVED
 
 _TURN = 360.0
@@ -69,7 +69,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
 
     `grid`: ascending crank angles for the columns, within one cycle; the machine's own table otherwise [rad].
     """
-    solved = prepare(machine, method or machine.method)
+    solved = traced_cylinder(machine, method or machine.method)
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     followed, wrong = _followed(solved)
@@ -149,12 +149,12 @@ def _only(names: Mapping[str, str], columns: Mapping[str, Array]) -> dict[str, A
     return {key: columns[name].copy() for key, name in names.items() if name in columns}
 
 
-def _followed(solved: PreparedCylinder) -> tuple[dict[str, TracedValue], dict[str, str]]:
+def _followed(solved: TracedCylinder) -> tuple[dict[str, TracedValue], dict[str, str]]:
     """Return the columns of the summary, with the errors of an approximate method, and the column of each error."""
     trace, wrong = solved.trace, dict[str, str]()
     values = {key: trace[key] for key in (*_MOVING, *_PUSHING) if key in trace}
     if not solved.method.is_exact:
-        exact = prepare(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None)).trace
+        exact = traced_cylinder(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None)).trace
         wrong = {f"{key}_error": key for key in ("piston_displacement", *_MOVING, *_WRONG_FORCES) if key in trace}
         values |= {key: trace[key] for key in wrong.values()}
         values |= {
@@ -164,7 +164,7 @@ def _followed(solved: PreparedCylinder) -> tuple[dict[str, TracedValue], dict[st
     return values, wrong
 
 
-def _geometry(solved: PreparedCylinder) -> dict[str, TracedValue]:
+def _geometry(solved: TracedCylinder) -> dict[str, TracedValue]:
     trace, lengths = solved.trace, solved.lengths
     values = {key: trace[key] for key in ("crank_radius", "rod_length")}
     r, l, e = values["crank_radius"], values["rod_length"], trace["offset"]  # noqa: E741
@@ -182,7 +182,7 @@ def _geometry(solved: PreparedCylinder) -> dict[str, TracedValue]:
     return values
 
 
-def _motion(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
+def _motion(solved: TracedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
     trace = solved.trace
     n = traced_inputs.revolutions(solved.machine)
     stroke = traced_inputs.stroke(solved.moving.lengths)
@@ -196,7 +196,7 @@ def _motion(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
     return values
 
 
-def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
+def _forces(solved: TracedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
     trace, cycle = solved.trace, traced_inputs.cycle_angle(solved.machine)
     if "piston_force" not in trace:
         return {}
@@ -206,12 +206,10 @@ def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
         values["rotating_inertia_force"] = trace["rotating_inertia_force"]
     mean = over.mean("crank_torque", "mean_torque")
     if solved.space is not None:
-        work = values["indicated_work"] = work_of_gas(solved, solved.space)
+        values |= (indicated := indicated_values(trace, solved.space, cycle))
         if solved.machine.angular_acceleration:
             # the torque that accelerates the parts is not periodic
-            mean = gas_formulas.mean_torque(work, cycle).named("mean_torque")
-        values["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, trace["swept_volume"])
-        power = values["indicated_power"] = gas_formulas.indicated_power(work, trace["speed"], cycle)
+            mean = gas_formulas.mean_torque(indicated["indicated_work"], cycle).named("mean_torque")
         valves = solved.machine.gas.valves if solved.machine.gas is not None else None
         if valves is not None:
             stated = StatedValves(valves, "gas.valves")
@@ -219,7 +217,9 @@ def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
             engine = solved.machine.engine
             if engine is None or len(engine.layout.places) == 1:
                 # the delivery of several cylinders is that of the engine
-                values |= stated.passed(inlet_flow(values["induced_volume"], trace["speed"], cycle), power)
+                values |= stated.passed(
+                    inlet_flow(values["induced_volume"], trace["speed"], cycle), indicated["indicated_power"]
+                )
     if solved.machine.engine is not None:
         return values | {"mean_torque": mean}
     largest = max(abs(values[f"crank_torque_{word}"].value) for word in ("max", "min"))
@@ -228,7 +228,7 @@ def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
 
 
 def _checks(
-    solved: PreparedCylinder, summary: Mapping[str, float], samples: Samples, over: CycleInterpolant
+    solved: TracedCylinder, summary: Mapping[str, float], samples: Samples, over: CycleInterpolant
 ) -> dict[str, float]:
     """Return the residuals of identities between the results, relative to the largest term."""
     if "piston_force" not in solved.trace:
@@ -267,7 +267,7 @@ def _checks(
     return result
 
 
-def _torque_of_energy(solved: PreparedCylinder, dense: Mapping[str, Array]) -> Array:
+def _torque_of_energy(solved: TracedCylinder, dense: Mapping[str, Array]) -> Array:
     """Return the torque of the work of gas and weights, less that of the change of kinetic energy."""
     w, eps, trace = solved.speed, solved.machine.angular_acceleration, solved.trace
     pushed = sum((dense[key] for key in ("gas_force", "weight_force") if key in dense), np.zeros_like(w))
@@ -278,7 +278,7 @@ def _torque_of_energy(solved: PreparedCylinder, dense: Mapping[str, Array]) -> A
     return np.asarray(pushed * dense["piston_velocity"] / w + rotating - energy)
 
 
-def _allowed(solved: PreparedCylinder, summary: Mapping[str, float]) -> dict[str, float]:
+def _allowed(solved: TracedCylinder, summary: Mapping[str, float]) -> dict[str, float]:
     """Return the residual of the work that the stated errors of torque and piston velocity allow."""
     if "crank_torque_error" not in summary or solved.space is None:
         return {}
@@ -288,7 +288,7 @@ def _allowed(solved: PreparedCylinder, summary: Mapping[str, float]) -> dict[str
     return {"work": error * math.radians(solved.machine.cycle) / moved_work(solved, summary)}
 
 
-def moved_work(solved: PreparedCylinder, summary: Mapping[str, float]) -> float:
+def moved_work(solved: TracedCylinder, summary: Mapping[str, float]) -> float:
     """Return the work of the largest torque over a cycle, as a scale; the net work may be zero."""
     largest = max(abs(summary["crank_torque_max"]), abs(summary["crank_torque_min"]))
     return largest * math.radians(solved.machine.cycle) or 1.0

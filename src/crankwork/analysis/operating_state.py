@@ -5,21 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import OperatingState
 from crankwork.dynamics.reaction import JointForces
-from crankwork.dynamics.redundant import (
-    RedundantLink,
-    force_along_other,
-    pressing,
-    redundant_forces,
-    with_redundant,
-)
+from crankwork.dynamics.redundant import RedundantLink, force_along_other, pressing, redundant_forces, with_redundant
 from crankwork.formula.traced_value import Component, Root, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.loads.load import applied_loads
+from crankwork.preparation.prepared import PreparedLinkage
 
 
 def operating_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:

@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.prepared import Notice
 from crankwork.analysis.results import Results
 from crankwork.cylinders.layout import Layout
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.loads.load import ProcessForce
 from crankwork.machine import Machine
+from crankwork.preparation.prepared import Notice
 
 
 class _Range(NamedTuple):

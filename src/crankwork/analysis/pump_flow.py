@@ -6,8 +6,6 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from crankwork.analysis.mechanism_trace import speed_of
-from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import Piecewise, ProcedureValue, TracedValue, absent, given, reached, total
@@ -16,6 +14,8 @@ from crankwork.loads.chamber import face_names
 from crankwork.loads.gas import piston_area
 from crankwork.loads.valves import pressure_head
 from crankwork.machine import Machine
+from crankwork.preparation.linkage import speed_of
+from crankwork.preparation.prepared import PreparedLinkage
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.analysis.piston_kinematics import CylinderKinematics
 from crankwork.dynamics.reduction import reduced_inertia_1_of_body, reduced_inertia_of_body
 from crankwork.formula.traced_value import TracedValue, absent, total
+from crankwork.preparation.piston_kinematics import CylinderKinematics
 
 REDUCTION = ("reduced_inertia", "reduced_inertia_1")
 MOVING = ("of_piston", "of_rod", "knuckle_pins")

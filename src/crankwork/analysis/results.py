@@ -13,28 +13,23 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.prepared import Notice
 from crankwork.errors import CrankworkError, RenamedKeyWarning, UnknownKeyError
 from crankwork.formula.calculation_lines import Snapshot
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.locale import ErrorMessage, Language
+from crankwork.locale import ErrorMessage
 from crankwork.method import Method
-from crankwork.quantities import QUANTITIES, base_key
+from crankwork.preparation.prepared import Notice
+from crankwork.quantities import QUANTITIES, base_key, derived_unit
 from crankwork.quantities.key import MOVED, RENAMED, key_of
+from crankwork.registered import RegisteredMethod
 from crankwork.units import coherent_unit
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    import pandas as pd
-    import xarray as xr
-
     from crankwork.analysis.assumptions import Assumption, IdleInput
     from crankwork.analysis.compare import Comparison
     from crankwork.machine import Machine
-    from crankwork.report.notebook import Picture
 
 V = TypeVar("V")
 
@@ -361,79 +356,13 @@ class Results(Mapping[str, Array | float]):
 
     def unit(self, key: str) -> str:
         """Return the SI unit of the value of a key, empty for a pure number."""
-        # texts belong to packages above the analysis; these methods only call them
-        from crankwork.report.display import key_unit  # noqa: PLC0415
-
         if key not in self:
             raise self._unknown(key, self)
-        return coherent_unit(key_unit(key))
+        return coherent_unit(derived_unit(key) or QUANTITIES[base_key(key)].unit)
 
-    def __repr__(self) -> str:
-        from crankwork.report.notebook import short_text  # noqa: PLC0415
-
-        return short_text(self)
-
-    def _repr_html_(self) -> str:
-        from crankwork.report.notebook import page  # noqa: PLC0415
-
-        return page(self)
-
-    def figure(self, name: str, language: Language = "en") -> Picture:
-        """Return a figure by the name of its file, `crankpin_polar`; a notebook shows it.
-
-        Raises
-        ------
-        UnknownKeyError
-            If there is no such figure.
-        """
-        from crankwork.report.notebook import picture  # noqa: PLC0415
-
-        return picture(self, name, language)
-
-    def to_xarray(self, *, shown: bool = False) -> xr.Dataset:
-        """Return everything as a dataset with dimensions: crank angle, cylinder, crankpin, joint, point, link, ray ...
-
-        Parameters
-        ----------
-        shown : bool
-            In the units of tables instead of SI; the attribute `units` of each variable says which.
-
-        Raises
-        ------
-        MissingExtraError
-            If xarray is not installed.
-        """
-        from crankwork.report.dataset import dataset  # noqa: PLC0415
-
-        return dataset(self, shown=shown)
-
-    def to_dataframe(self, *, shown: bool = False) -> pd.DataFrame:
-        """Return the columns as a frame over the crank angle; `shown` as in `to_xarray`, with units in the headings.
-
-        Raises
-        ------
-        MissingExtraError
-            If pandas is not installed.
-        """
-        from crankwork.report.dataset import frame  # noqa: PLC0415
-
-        return frame(self, shown=shown)
-
-    def write(self, path: str | Path, *, overwrite: bool = False) -> None:
-        """Write the data as NetCDF (`.nc`), Parquet (`.parquet`) or MAT (`.mat`), in SI.
-
-        Raises
-        ------
-        CrankworkError
-            If the ending is another, or the file is there and is not to be replaced.
-        MissingExtraError
-            If a library is not installed.
-        """
-        from crankwork import files  # noqa: PLC0415
-        from crankwork.report.dataset import written  # noqa: PLC0415
-
-        files.check_files(path, overwrite=overwrite)
-        files.write_files({path: written(self, str(path))}, overwrite=overwrite)
+    # what shows, writes or explains results is defined in packages above the analysis
+    explain, figure, to_dataframe, to_xarray, write, _repr_html_ = (RegisteredMethod() for _ in range(6))
+    __repr__ = RegisteredMethod()
 
     def value(self, key: str, at: float | None = None) -> float:
         """Return one value.
@@ -474,34 +403,6 @@ class Results(Mapping[str, Array | float]):
         if known is None and key not in self.columns:
             raise self._unknown(key, self)
         return self._column_at(key, known, self._within(key, at))
-
-    def explain(self, key: str, at: float | None = None, language: Language = "en") -> str:
-        """Return how a value came about, line by line down to what is given.
-
-        Parameters
-        ----------
-        key : str
-            As in `value`.
-        at : float, optional
-            Crank angle of what varies, or the time where a law drives. [deg] or [s]
-        language : str
-            `en`, `ru` or `vi`.
-
-        Returns
-        -------
-        str
-            The value, every step in the order of calculation, and the given values.
-
-        Raises
-        ------
-        CrankworkError
-            As `value` does.
-        """
-        # texts belong to packages above the analysis; this method only calls them
-        from crankwork.note.explain import explanation  # noqa: PLC0415
-
-        key = self.current(key)
-        return explanation(self.holding(key), key, at, language)
 
     def _column_at(self, key: str, known: TracedValue | None, degrees: float) -> float:
         row = int(np.argmin(np.abs(self.grid.degrees - degrees)))

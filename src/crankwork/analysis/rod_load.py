@@ -8,13 +8,13 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crankwork.analysis.bearings import reversal_values
-from crankwork.analysis.prepared import Notice, PreparedLinkage
 from crankwork.dynamics.link_loads import OperatingState, link_inertia_force
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import TracedValue, absent, given, total
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank
+from crankwork.preparation.prepared import Notice, PreparedLinkage
 
 _API = "api_618, 6.6"
 COLUMNS = ("rod_load", "piston_rod_load", "crosshead_load")

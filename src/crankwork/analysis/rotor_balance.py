@@ -9,9 +9,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
 from crankwork.analysis.harmonics import direction
-from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Listing, Results
 from crankwork.cylinders import planes
 from crankwork.cylinders.counterweights import counterweight_moment
@@ -22,6 +20,8 @@ from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import AngleFunction, ProcedureValue, TracedAngle, TracedValue, absent, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Machine
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.prepared import Notice, PreparedMachine
 
 Vector = tuple[TracedValue, TracedValue]
 _COLUMNS = ("unbalanced_force_along", "unbalanced_force_across", "unbalanced_force", "unbalanced_couple")

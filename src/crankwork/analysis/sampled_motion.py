@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.motion_range import find_reachable_motion, open_range
 from crankwork.analysis.results import Results
 from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.cylinders.layout import CylinderPlace, Layout
@@ -19,6 +18,7 @@ from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.machine import Engine, Machine
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.preparation.reachable_motion import find_reachable_motion, open_range
 from crankwork.working_cycle.pressure_models import CornerPressure
 
 _TURN = 360.0

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from crankwork.analysis.cylinder_forces import TracedCylinder
 from crankwork.analysis.cylinders import MultiCylinderEngine
-from crankwork.analysis.prepared import PreparedCylinder, relative_difference
 from crankwork.cylinders.articulated import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.link_loads import OperatingState
@@ -23,12 +23,13 @@ from crankwork.kinematics.piston import only_rod
 from crankwork.loads.applied_loads import AppliedForce, AppliedLoads
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import Body, Mechanism, body_at
+from crankwork.preparation.prepared import relative_difference
 
 # where both ways are compared [deg]
 _STEP, _FIRST = 30.0, 7.0
 
 
-def joint_force_residuals(solved: PreparedCylinder, samples: Samples) -> dict[str, float]:
+def joint_force_residuals(solved: TracedCylinder, samples: Samples) -> dict[str, float]:
     """Return how far torque and side force are from those of the linkage, as a share of the largest or of joint forces.
 
     Nothing for a method that only comes near the motion, and for a rod that hangs on another.
@@ -96,7 +97,7 @@ def _largest(forces: JointForces) -> float:
 
 
 def _running(
-    solved: PreparedCylinder, mechanism: Mechanism, gas: Mapping[str, Array], grid: CrankGrid, lean: float
+    solved: TracedCylinder, mechanism: Mechanism, gas: Mapping[str, Array], grid: CrankGrid, lean: float
 ) -> OperatingState:
     """Return rods and pistons at work, the gas pushing the pistons by their names, with weights where they count.
 

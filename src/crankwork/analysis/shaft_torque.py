@@ -7,13 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
 from crankwork.analysis.crankshaft_bearings import rotating_mass_of
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.harmonics import amplitude_of_order, curve_of, order_count, traced_harmonics
 from crankwork.analysis.motor_choice import motor_of_crank
-from crankwork.analysis.prepared import Notice
 from crankwork.analysis.reduction import MOVING, REDUCTION
 from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed
 from crankwork.cylinders.layout import Layout
@@ -31,6 +29,8 @@ from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Samples
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.prepared import Notice
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import Mean, TrueSpeed, excess_work
 

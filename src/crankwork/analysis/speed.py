@@ -9,14 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
 from crankwork.analysis.flywheel import (
     flywheel_dimensions,
     given_flywheel_dimensions,
     recovery_torque_values,
     target_fluctuation,
 )
-from crankwork.analysis.prepared import Notice
 from crankwork.errors import MethodError
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
@@ -33,6 +31,8 @@ from crankwork.formula.traced_value import (
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.prepared import Notice
 from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.fluctuation import (
     ExcessWork,

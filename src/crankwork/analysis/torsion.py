@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis.crankshaft_bearings import rotating_mass_of
+from crankwork.analysis.cylinder_forces import TracedCylinder
 from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
 from crankwork.analysis.harmonics import curve_of
-from crankwork.analysis.prepared import Notice, PreparedCylinder, PreparedMachine
 from crankwork.analysis.reduction import MOVING
 from crankwork.analysis.results import Deferred, Listing, Results
 from crankwork.cylinders.arrangement import inline
@@ -30,6 +30,7 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Engine, Machine
+from crankwork.preparation.prepared import Notice, PreparedMachine
 from crankwork.shaft import torsion_formulas as formulas
 from crankwork.shaft.torsion_model import GROUNDED, ElasticShaft, ShaftPart, TorsionModel, structure_of, walked
 from crankwork.shaft.torsional_system import (
@@ -49,7 +50,7 @@ _TURN, _CYCLE = 360.0, 720.0
 def engine_of(results: Results) -> MultiCylinderEngine | None:
     """Return all cylinders of an engine, one where there is one crank gear; None of another machine."""
     solved = results.solved
-    if not isinstance(solved, PreparedCylinder):
+    if not isinstance(solved, TracedCylinder):
         return None
     if solved.machine.engine is not None:
         return multi_cylinder_engine(solved)

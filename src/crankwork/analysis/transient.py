@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.path_coordinate import CLOSE, PathCoordinate, PathSegment, path_coordinate
-from crankwork.analysis.prepared import Notice, PreparedLinkage
 from crankwork.analysis.results import Listing
 from crankwork.dynamics.force_system import full_equilibrium
 from crankwork.dynamics.friction import FrictionJoint, friction_forces, friction_joints
@@ -51,6 +50,7 @@ from crankwork.loads.load import (
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine, Transient
 from crankwork.mechanism.joints import names_of_pivots
+from crankwork.preparation.prepared import Notice, PreparedLinkage
 from crankwork.shaft.collocation import gauss
 from crankwork.shaft.compiled_integrator import TransientReplay
 from crankwork.shaft.piecewise_fit import fit_piecewise

@@ -8,7 +8,6 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 import numpy as np
 from numpy.polynomial import legendre
 
-from crankwork.analysis.prepared import Notice
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import FormulaCall, ProcedureValue, TracedValue, select
@@ -19,6 +18,7 @@ from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.dyads import RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.preparation.prepared import Notice
 from crankwork.quantities.key import key_of
 
 FOLLOWED = ("transmission_cosine", "pressure_sine")

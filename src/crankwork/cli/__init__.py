@@ -602,8 +602,6 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
     if key is None or with_keys:
         click.echo("\n".join(key_lines(results.complete, options.language)))
         return
-    key = results.current(key)
-    results = results.holding(key)
     click.echo(explanation(results, key, angle_or_time, options.language, options.origin()), nl=False)
 
 

@@ -133,7 +133,7 @@ def test_values(values: Values) -> dict[str, tuple[float, ...]]:
 
 def build_test(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of a test alone, or None after complaints."""
-    from crankwork.analysis.test_bed import analyse_test  # noqa: PLC0415 - few files have a test alone
+    from crankwork.preparation.test_bed import worked_alone  # noqa: PLC0415 - few files have a test alone
 
     method, crank = build_method(values["method"], reader), values["crank"]
     if reader.problems:
@@ -151,7 +151,7 @@ def build_test(values: Values, reader: Reader) -> Machine | None:
         stated=stated_numbers(values), test=test,
     )  # fmt: skip
     try:
-        analyse_test(machine)
+        worked_alone(machine)
     except CrankworkError as error:
         reader.add_error(getattr(error, "key", "test"), error.args[0])
         return None

@@ -381,7 +381,7 @@ def check_shaft(machine: Machine, values: Values, reader: Reader) -> bool:
     if machine.shaft is None:
         return True
     # most linkages do not load it
-    from crankwork.analysis.cylinder_form import engine_form_or_reason  # noqa: PLC0415
+    from crankwork.preparation.cylinder_form import engine_form_or_reason  # noqa: PLC0415
 
     form = engine_form_or_reason(machine)
     if isinstance(form, Machine):

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from crankwork.analysis.cell_gas import relocate
 from crankwork.description.keys import CYCLE
 from crankwork.description.measured_build import build_diagram, build_valves, check_parts, has_diagram, with_valves
 from crankwork.description.schema import Values, no_effect_message
@@ -28,6 +27,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Engine, Gas
 from crankwork.mechanism.cells import NoCellsError, crank_cells
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.preparation.cell_gas import relocate
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, CalculatedPressure
 from crankwork.working_cycle.closed_gas import HeatReleaseData
 from crankwork.working_cycle.cycle_data import GrinevetskyData

@@ -8,8 +8,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from crankwork.analysis.gas_chambers import traced_linkage
-from crankwork.analysis.motion_range import find_reachable_motion
 from crankwork.description.build import build_method, check_inertia_ratio, crank_speed, read_drive, read_flywheel
 from crankwork.description.crankshaft_build import (
     build_bearings,
@@ -66,6 +64,8 @@ from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage, MassPerL
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.table_reader import linkage_from
 from crankwork.method import Method
+from crankwork.preparation.linkage import traced_linkage
+from crankwork.preparation.reachable_motion import find_reachable_motion
 
 _GEOMETRY = ("fixed_points", "crank", "geared", "links", "guides", "sliders", "branch", "positions")
 _STEP = 1.0
@@ -167,7 +167,7 @@ def _check_method(machine: Machine, reader: Reader) -> None:
     if method.is_exact:
         return
     # most linkages are computed exactly
-    from crankwork.analysis.cylinder_form import engine_form_or_reason  # noqa: PLC0415
+    from crankwork.preparation.cylinder_form import engine_form_or_reason  # noqa: PLC0415
 
     form = engine_form_or_reason(machine, has_all=True)
     if not isinstance(form, Machine):

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
-from crankwork.analysis import prepare
 from crankwork.description import keys as engine_files
 from crankwork.description.build import SIZES, build_machine, build_test
 from crankwork.description.keys import (
@@ -61,6 +60,8 @@ from crankwork.description.value_types import Reader, is_one_line, look_alikes
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import LANGUAGES, ErrorMessage, Language, translate
+from crankwork.preparation.cylinders import each_cylinder
+from crankwork.preparation.prepared import PreparedCylinder, prepare
 from crankwork.resources import read_resource, resource_names
 from crankwork.units import TO_LATIN
 from crankwork.working_cycle.schools import SCHOOLS
@@ -331,16 +332,14 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
     if machine is None:
         return None
     try:
-        solved = [prepare(machine, machine.method)]
-        if machine.engine is not None and machine.engine.gases:
-            from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415 - few engines have them
-
-            solved += multi_cylinder_engine(solved[0]).cylinders[1:]
+        first = prepare(machine, machine.method, PreparedCylinder)
+        differ = machine.engine is not None and machine.engine.gases
+        solved = each_cylinder(first) if differ or machine.test is not None else (first,)
         add_questions(itertools.chain.from_iterable(cylinder.notices for cylinder in solved), values, reader)
         if machine.test is not None:
-            from crankwork.analysis.analyse import analyse  # noqa: PLC0415 - few engines have a test
+            from crankwork.preparation.test_bed import check_test  # noqa: PLC0415 - few engines have a test
 
-            analyse(machine, [0.0])
+            check_test(machine, solved)
     except DiagramError as error:
         reader.add_error(error.key, in_file(error.key, error.args[0], values))
     except CrankworkError as error:

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.motion_range import ReachableMotion, find_reachable_motion, open_range
 from crankwork.description.schema import Values
 from crankwork.description.value_types import Reader
 from crankwork.dynamics.reduction import reduced_inertia
@@ -41,6 +40,7 @@ from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 from crankwork.mechanism.structure import mobility
 from crankwork.mechanism.table_reader import linkage_from
+from crankwork.preparation.reachable_motion import ReachableMotion, find_reachable_motion, open_range
 
 _STEP = 1.0
 _KEYS = ("share", "of")

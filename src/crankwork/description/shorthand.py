@@ -9,9 +9,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from crankwork.analysis import prepare
-from crankwork.analysis.cylinders import multi_cylinder_engine
-from crankwork.analysis.prepared import PreparedCylinder
 from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.document import Description, load
@@ -24,6 +21,8 @@ from crankwork.description.value_types import Reader
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.locale import Language, translate
 from crankwork.machine import Engine, Gas, Machine
+from crankwork.preparation.cylinders import each_cylinder
+from crankwork.preparation.prepared import PreparedCylinder, prepare
 from crankwork.units import from_si
 from crankwork.working_cycle.pressure_models import MisfirePressure
 
@@ -87,7 +86,7 @@ class CrankMechanism(NamedTuple):
 
 def crank_mechanisms(machine: Machine) -> list[CrankMechanism]:
     """Return the crank mechanisms of an engine, cylinder 1 first."""
-    solved = prepare(machine, machine.method)
+    solved = prepare(machine, machine.method, PreparedCylinder)
     if machine.engine is None or len(machine.engine.layout.places) == 1:
         return [CrankMechanism(solved, _ALONE, _head(machine, 0.0, 0.0), "", "A")]
     first, *_ = places = machine.engine.layout.places
@@ -99,7 +98,7 @@ def crank_mechanisms(machine: Machine) -> list[CrankMechanism]:
             f"_{place.number}",
             f"A{place.crankpin + 1}" if cylinder.articulated_rod is None else f"C{place.number}",
         )
-        for cylinder, place in zip(multi_cylinder_engine(solved).cylinders, places, strict=True)
+        for cylinder, place in zip(each_cylinder(solved), places, strict=True)
     ]
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from crankwork.analysis.stages import stage_states, stage_values
 from crankwork.description.build import crank_speed, exact_method, machine_alone, read_drive
 from crankwork.description.schema import Values, stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
@@ -16,6 +15,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.method import Method
+from crankwork.preparation.stages import stage_states, stage_values
 from crankwork.quantities.key import key_of
 
 _DELIVERIES = ("flow", "free_flow", "mass_flow")

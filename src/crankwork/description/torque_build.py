@@ -9,16 +9,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from crankwork.analysis.given_torques import analyse_turning
 from crankwork.cylinders.planes import PlaneMass, Rotor, Sector, arrangements, sector_moment
 from crankwork.description.build import crank_speed, exact_method, machine_alone, read_drive, read_flywheel
 from crankwork.description.links_keys import FORMS
 from crankwork.description.schema import Values
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.errors import CrankworkError
+from crankwork.formula.traced_value import given
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.method import Method
+from crankwork.preparation.given_torques import excess_work_of
 from crankwork.shaft.torque_diagram import (
     Harmonic,
     ShaftTorques,
@@ -99,7 +100,7 @@ def _slowed(machine: Machine, turning: ShaftTorques, values: Values, reader: Rea
         return None
     largest, counted = machine.speed, machine.method.pi / math.pi
     for _ in range(_TRIES):
-        excess = analyse_turning(machine, turning).summary["excess_work"]
+        excess = excess_work_of(machine, turning, given("speed", machine.speed * counted))
         square = largest**2 - 2 * excess / machine.drive.inertia / counted**2
         if square <= 0:
             reader.add_error("crank.largest_speed", ErrorMessage("largest_speed_small", excess=excess))

@@ -8,17 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from crankwork.dynamics.force_system import (
-    Equilibrium,
-    all_links_and_joints,
-    cylinder_force,
-    full_equilibrium,
-)
-from crankwork.dynamics.friction_equations import (
-    FrictionEquations,
-    Status,
-    Truth,
-)
+from crankwork.dynamics.force_system import Equilibrium, all_links_and_joints, cylinder_force, full_equilibrium
+from crankwork.dynamics.friction_equations import FrictionEquations, Status, Truth
 from crankwork.dynamics.link_loads import OperatingState, Wrenches, arm, cross, link_wrenches
 from crankwork.dynamics.reaction import JointForces, collect_reactions
 from crankwork.errors import MethodError

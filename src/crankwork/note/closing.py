@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import capital, translate
 from crankwork.note.captions import printed_unit
@@ -21,6 +20,7 @@ from crankwork.note.readings import agree, concluded, concluded_of_linkage
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
 from crankwork.note.wording import Words, named
+from crankwork.preparation.prepared import Notice
 from crankwork.quantities.key import key_of
 from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.drawing import dimensioned, film_of

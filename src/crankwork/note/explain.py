@@ -80,12 +80,33 @@ def _path(path: str, _: Iterable[float]) -> str:
 def explanation(
     results: Results, key: str, at: float | None = None, language: Language = "en", place: Place = _path
 ) -> str:
-    """Return how a value is calculated, down to the inputs.
+    """Return how a value came about, line by line down to what is given.
 
-    `key`: key of a column, of a single value, or of an intermediate one; `at`: crank angle [deg] or time [s], for one
-    that varies;
-    `place`: says where a value comes from that is said to stand at a path of the machine file.
+    Parameters
+    ----------
+    results : Results
+        Results of an analysis.
+    key : str
+        Key of a column, of a single value, or of what lies between them.
+    at : float, optional
+        Crank angle of what varies, or the time where a law drives. [deg] or [s]
+    language : str
+        `en`, `ru` or `vi`.
+    place : callable, optional
+        Says where a value comes from that is said to stand at a path of the machine file.
+
+    Returns
+    -------
+    str
+        The value, every step in the order of calculation, and the given values.
+
+    Raises
+    ------
+    CrankworkError
+        As `Results.value` does.
     """
+    key = results.current(key)
+    results = results.holding(key)
     value = results.value(key, at)
     known = results.trace.get(key)
     degrees, places = 0.0 if at is None else results.degrees_of(at), _Places(results.period, language)

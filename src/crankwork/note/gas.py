@@ -10,7 +10,6 @@ import numpy as np
 
 from crankwork.analysis.constructions import Polytropes, polytropes
 from crankwork.analysis.input_loads import stated_chambers
-from crankwork.analysis.prepared import Notice
 from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine
 from crankwork.formula.expression import Formula, Operation, Symbol, evaluate, symbol, text
 from crankwork.formula.traced_value import Piecewise
@@ -44,6 +43,7 @@ from crankwork.note.parts import (
 from crankwork.note.symbols import symbol_box
 from crankwork.note.tables import Column, column_table, folded, quantity_column, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
+from crankwork.preparation.prepared import Notice
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import FILE_KEYS, displayed

@@ -14,15 +14,7 @@ from crankwork.analysis.all_cylinders import with_engine_results
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import ErrorMessage, Language, translate
 from crankwork.machine import Document
-from crankwork.note import (
-    closing,
-    cylinders,
-    data,
-    forces,
-    gas,
-    motion,
-    torque,
-)
+from crankwork.note import closing, cylinders, data, forces, gas, motion, torque
 from crankwork.note.captions import printed_date, printed_unit
 from crankwork.note.document import (
     Block,

@@ -10,7 +10,7 @@ from crankwork.quantities.engine import CYCLE, ENGINE
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import Quantity
 
-__all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "SUBJECTS", "base_key", "subject"]
+__all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "SUBJECTS", "base_key", "derived_unit", "subject"]
 
 # what a crank gear is: lengths, speed, masses
 _MACHINE = (
@@ -764,6 +764,14 @@ def base_key(key: str) -> str:
         if key not in QUANTITIES:
             key = key.removesuffix(suffix)
     return key
+
+
+def derived_unit(key: str) -> str:
+    """Return the unit of a derived key that is the crank angle or the time of something, empty for another key."""
+    kind = key_of(key).quantity
+    if kind in QUANTITIES:
+        return ""
+    return "deg" if kind.endswith("_angle") else "s" if kind.endswith("_time") else ""
 
 
 def subject(key: str) -> str:

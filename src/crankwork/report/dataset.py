@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Mapping
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankwork import files
 from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import ErrorMessage
@@ -40,9 +41,19 @@ _MODULES = {".nc": "h5netcdf", ".parquet": "pyarrow", ".mat": "scipy"}
 
 @in_own_units
 def dataset(results: Results, *, shown: bool = False) -> xr.Dataset:
-    """Return columns, single values and listings with their dimensions.
+    """Return everything as a dataset with dimensions: crank angle, cylinder, crankpin, joint, point, link, ray ...
 
-    `shown`: in the units of tables instead of SI; `units` of each variable says which.
+    Parameters
+    ----------
+    results : Results
+        Results of an analysis.
+    shown : bool
+        In the units of tables instead of SI; the attribute `units` of each variable says which.
+
+    Raises
+    ------
+    MissingExtraError
+        If xarray is not installed.
     """
     check_extras("xarray")
     import xarray as xr  # noqa: PLC0415 - an optional part
@@ -143,7 +154,15 @@ def _attributes(key: str, *, shown: bool) -> dict[str, str]:
 
 @in_own_units
 def frame(results: Results, *, shown: bool = False) -> pd.DataFrame:
-    """Return the columns as a frame over the crank angle, or over the time of a law; `shown` as `dataset` takes it."""
+    """Return the columns as a frame over the crank angle, or over the time of a law.
+
+    `shown`: in the units of tables, with these in the headings.
+
+    Raises
+    ------
+    MissingExtraError
+        If pandas is not installed.
+    """
     check_extras("pandas")
     import pandas as pd  # noqa: PLC0415 - an optional part
 
@@ -160,8 +179,22 @@ def frame(results: Results, *, shown: bool = False) -> pd.DataFrame:
     return table
 
 
-def written(results: Results, name: str) -> bytes:
-    """Return results as the file that the ending of a name asks for: NetCDF, Parquet or MAT, in SI."""
+def write(results: Results, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write the data as NetCDF (`.nc`), Parquet (`.parquet`) or MAT (`.mat`), in SI.
+
+    Raises
+    ------
+    CrankworkError
+        If the ending is another, or the file is there and is not to be replaced.
+    MissingExtraError
+        If a library is not installed.
+    """
+    files.check_files(path, overwrite=overwrite)
+    files.write_files({path: _written(results, str(path))}, overwrite=overwrite)
+
+
+def _written(results: Results, name: str) -> bytes:
+    """Return results as the file that the ending of a name asks for."""
     ending = PurePath(name).suffix.lower()
     if ending not in _MODULES:
         raise CrankworkError(ErrorMessage("data_ending", name=name[-60:], known=", ".join(_MODULES)))

@@ -13,7 +13,7 @@ import numpy as np
 from crankwork.locale import decimal, has_text, texts, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
-from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
+from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key, derived_unit
 from crankwork.quantities.key import MOVED, Key, key_of
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
 from crankwork.units import DisplayUnits, from_si, parse_in, use_units
@@ -47,18 +47,6 @@ FILE_KEYS = {
 _EXTREMES = ("max", "min")
 
 
-def _is_angle(key: str) -> bool:
-    """Return whether a derived key is the crank angle of something."""
-    kind = key_of(key).quantity
-    return kind.endswith("_angle") and kind not in QUANTITIES
-
-
-def _is_time(key: str) -> bool:
-    """Return whether a derived key is the time of something."""
-    kind = key_of(key).quantity
-    return kind.endswith("_time") and kind not in QUANTITIES
-
-
 def in_own_units(function: Callable[Concatenate[Results, P], R]) -> Callable[Concatenate[Results, P], R]:
     """Return a function that shows results in the system of units that their machine asks for."""
 
@@ -81,7 +69,7 @@ def reader_units(results: Results) -> DisplayUnits:
     listed = (listing.columns for name, listing in results.listings.items() if name not in _SUMS)
     largest = dict.fromkeys(_LARGER, 0.0)
     for key, values in itertools.chain(*(columns.items() for columns in (results.columns, *listed))):
-        unit = "" if _is_angle(key) or _is_time(key) else QUANTITIES[base_key(key)].metric
+        unit = "" if derived_unit(key) else QUANTITIES[base_key(key)].metric
         if unit in largest:
             known = values[np.isfinite(values)]
             largest[unit] = max(largest[unit], float(np.max(np.abs(known), initial=0.0)))
@@ -102,10 +90,8 @@ def for_readers(function: Callable[Concatenate[Results, P], R]) -> Callable[Conc
 
 def key_unit(key: str, *, per_area: bool = False) -> str:
     """Return the display unit of a key, a derived one such as `piston_force_max_angle` included."""
-    if _is_angle(key):
-        return "deg"
-    if _is_time(key):
-        return "s"
+    if unit := derived_unit(key):
+        return unit
     row = QUANTITIES[base_key(key)]
     return row.per_area_unit if per_area and row.per_area_unit else row.unit
 
@@ -131,7 +117,7 @@ def displayed_size(key: str, size: float) -> float:
 
 def is_per_area(key: str) -> bool:
     """Return whether a quantity may be given by the piston area."""
-    return not _is_angle(key) and not _is_time(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
+    return not derived_unit(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
 
 
 def display_key(key: str, results: Results) -> str:
@@ -241,10 +227,8 @@ def _label(key: str, language: Language, part: str = "") -> str:
 
 def symbol(key: str, language: Language) -> str:
     """Return the symbol of a key; derived keys get the mark of what they are."""
-    if _is_angle(key):
-        return QUANTITIES["crank_angle"].symbol(language)
-    if _is_time(key):
-        return QUANTITIES["time"].symbol(language)
+    if unit := derived_unit(key):
+        return QUANTITIES["crank_angle" if unit == "deg" else "time"].symbol(language)
     kind = key_of(key).quantity
     if kind in QUANTITIES:
         return QUANTITIES[kind].symbol(language)

@@ -57,8 +57,14 @@ class Picture:
         files.write_files({path: FORMATS[ending](self.drawing, self.theme)}, overwrite=overwrite)
 
 
-def picture(results: Results, name: str, language: Language) -> Picture:
-    """Return a figure by name."""
+def picture(results: Results, name: str, language: Language = "en") -> Picture:
+    """Return a figure by the name of its file, `crankpin_polar`; a notebook shows it.
+
+    Raises
+    ------
+    UnknownKeyError
+        If there is no such figure.
+    """
     # a notebook that draws nothing does not load it
     from crankwork.report.figures import drawings, figure_names  # noqa: PLC0415
 

@@ -21,11 +21,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.curves import hermite
-from crankwork.loads.indicator import (
-    IndicatorDiagram,
-    Segment,
-    VolumeAt,
-)
+from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt
 from crankwork.loads.traced_diagram import at_angle, traced_pressure
 from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners

@@ -7,15 +7,15 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TypeVar
 
-from crankwork.analysis import traced_inputs
-from crankwork.analysis.piston_kinematics import CylinderKinematics
-from crankwork.analysis.prepared import PreparedCylinder, WorkingSpace
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, delayed, given, reached
 from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
 from crankwork.loads.traced_diagram import DiagramInput, at_angle, polytrope_origin, pressure_on_piston, traced_pressure
 from crankwork.loads.valves import StatedValves
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.piston_kinematics import CylinderKinematics
+from crankwork.preparation.prepared import PreparedCylinder, WorkingSpace
 
 _Value = TypeVar("_Value")
 # inputs and checks of a cycle, which other keys of a summary also show
@@ -124,12 +124,31 @@ def _ambient(solved: PreparedCylinder) -> str:
     return "cycle.ambient_pressure" if is_calculated else "gas.ambient"
 
 
-def work_of_gas(solved: PreparedCylinder, space: WorkingSpace) -> TracedValue:
+def gas_of_cylinder(solved: PreparedCylinder) -> dict[str, TracedValue]:
+    """Return motion, areas, volumes and gas of a cylinder by key, as far as they are known."""
+    moving = solved.moving._replace(trace=dict(solved.moving.trace))
+    moving.trace.update(space_trace(solved, moving))
+    if solved.space is not None:
+        moving.trace.update(gas_trace(solved, solved.space, moving))
+    return moving.trace
+
+
+def work_of_gas(trace: Mapping[str, TracedValue], space: WorkingSpace) -> TracedValue:
     """Return the work that the gas does in a cycle: the area of the diagram."""
-    pressure = solved.trace["diagram_pressure" if space.factor == 1 else "gas_pressure"]
-    return TracedValue(
-        ProcedureValue(space.work, "work", (pressure, solved.trace["cylinder_volume"])), "indicated_work"
-    )
+    pressure = trace["diagram_pressure" if space.factor == 1 else "gas_pressure"]
+    return TracedValue(ProcedureValue(space.work, "work", (pressure, trace["cylinder_volume"])), "indicated_work")
+
+
+def indicated_values(
+    trace: Mapping[str, TracedValue], space: WorkingSpace, cycle: TracedValue
+) -> dict[str, TracedValue]:
+    """Return the indicated work of a cylinder, its mean pressure and its power; `cycle`: its angle [rad]."""
+    work = work_of_gas(trace, space)
+    return {
+        "indicated_work": work,
+        "indicated_mean_pressure": gas.indicated_mean_pressure(work, trace["swept_volume"]),
+        "indicated_power": gas.indicated_power(work, trace["speed"], cycle),
+    }
 
 
 def _path(solved: PreparedCylinder) -> str:

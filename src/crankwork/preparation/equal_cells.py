@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from crankwork.analysis.cell_gas import nearly_equal
 from crankwork.formula.traced_value import TracedValue, delayed
 from crankwork.loads.chamber import Chamber
 from crankwork.loads.load import Weight
@@ -14,6 +13,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.equal_parts import EqualPart, equal_parts
 from crankwork.mechanism.joints import joints
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.preparation.cell_gas import nearly_equal
 from crankwork.quantities.key import key_of
 
 _TURN = 360.0

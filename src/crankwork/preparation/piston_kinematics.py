@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from crankwork.analysis import traced_inputs
 from crankwork.cylinders.articulated import ArticulatedMotion, ArticulatedRod, articulated_motion
 from crankwork.dynamics.piston_forces import piston_acceleration, piston_velocity
 from crankwork.formula.expression import Value
@@ -15,9 +14,10 @@ from crankwork.kinematics.series import acceleration_harmonics, order_terms, tra
 from crankwork.kinematics.slider_crank import SliderCrank, pin_distance, rod_angular_acceleration, rod_angular_velocity
 from crankwork.machine import Machine
 from crankwork.method import Method
+from crankwork.preparation import traced_inputs
 
 if TYPE_CHECKING:
-    from crankwork.analysis.prepared import PreparedCylinder
+    from crankwork.preparation.prepared import PreparedCylinder
 
 KINEMATICS = (
     "piston_displacement", "piston_velocity", "piston_acceleration",

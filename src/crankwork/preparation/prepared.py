@@ -5,13 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from crankwork.analysis import traced_inputs
-from crankwork.analysis.piston_kinematics import CylinderKinematics, moving_cylinder
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.errors import CrankworkError
 from crankwork.formula.replay import Program
@@ -26,6 +23,8 @@ from crankwork.loads.pressure_processing import PressureReference, measured_diag
 from crankwork.loads.valves import StatedValves
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
+from crankwork.preparation import traced_inputs
+from crankwork.preparation.piston_kinematics import CylinderKinematics, moving_cylinder
 
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
@@ -98,13 +97,6 @@ class PreparedCylinder(PreparedMachine):
     articulated_rod: ArticulatedRod | None = None
     lean: float = 0.0
 
-    @cached_property
-    def trace(self) -> dict[str, TracedValue]:
-        """Everything about the cylinder by key, traced."""
-        from crankwork.analysis.cylinder_forces import cylinder_trace  # noqa: PLC0415 - it is made of what is solved here
-
-        return cylinder_trace(self)
-
     def traced_stroke(self, lengths: SliderCrank) -> TracedValue:
         """Return the stroke as a traced value, of traced lengths."""
         if self.articulated_rod is not None:
@@ -135,7 +127,10 @@ class PreparedCylinder(PreparedMachine):
         return result.stroke, result.top_angle, result.bottom_angle
 
 
-def prepare(machine: Machine, method: Method) -> PreparedCylinder:
+_Cylinder = TypeVar("_Cylinder", bound=PreparedCylinder)
+
+
+def prepare(machine: Machine, method: Method, kind: type[_Cylinder]) -> _Cylinder:
     """Return a machine made ready for a method.
 
     Lengths, angular speed and the solved indicator diagram.
@@ -154,11 +149,11 @@ def prepare(machine: Machine, method: Method) -> PreparedCylinder:
         notices.append(Notice("ambient", {"pressure": machine.gas.ambient / 1e6}))
     if machine.masses is not None and machine.masses.rod_inertia_excess and method.rod != "rigid":
         notices.append(Notice("no_couple", {}))
-    solved = PreparedCylinder(machine, method, float(speed), lengths, None, moving_cylinder(machine, method, lengths))
+    solved = kind(machine, method, float(speed), lengths, None, moving_cylinder(machine, method, lengths))
     return _with_space(solved, notices)
 
 
-def prepare_articulated(solved: PreparedCylinder, articulated_rod: ArticulatedRod) -> PreparedCylinder:
+def prepare_articulated(solved: _Cylinder, articulated_rod: ArticulatedRod) -> _Cylinder:
     """Return a cylinder of the same engine whose rod hangs on the master rod.
 
     The same machine with the stroke, dead centres and diagram of that rod.
@@ -167,7 +162,7 @@ def prepare_articulated(solved: PreparedCylinder, articulated_rod: ArticulatedRo
     return _with_space(replace(solved, articulated_rod=articulated_rod, moving=moving, space=None, notices=()), [])
 
 
-def _with_space(solved: PreparedCylinder, notices: list[Notice]) -> PreparedCylinder:
+def _with_space(solved: _Cylinder, notices: list[Notice]) -> _Cylinder:
     """Return a cylinder with its working space, if it has one."""
     machine, method = solved.machine, solved.method
     gas, cylinder = machine.gas, machine.cylinder

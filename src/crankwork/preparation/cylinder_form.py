@@ -10,7 +10,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from crankwork.analysis.cell_gas import CellChambers, bore_of, chambers_of, gas_of, is_close, nearly_equal
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
 from crankwork.cylinders.firing import SAME_ANGLE, wrap_angle
 from crankwork.cylinders.journal_loads import check_journals
@@ -24,6 +23,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Bearings, Cylinder, Drive, Engine, Gas, Machine, Shaft
 from crankwork.mechanism.cells import Cell, CrankCells, NoCellsError, Part, crank_cells
 from crankwork.mechanism.mechanism import slider_crank
+from crankwork.preparation.cell_gas import CellChambers, bore_of, chambers_of, gas_of, is_close, nearly_equal
 
 _TURN = 360.0
 # of the size of a value, where rounding begins
