@@ -917,4 +917,8 @@ CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for
 LOADED_FILE, LOADED_SIZED_FILE = (
     keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT}) for keys in (MACHINE_FILE, SIZED_FILE)
 )
+# where an offset is all that is known of the cylinder
+OFFSET_FILE, LOADED_OFFSET_FILE = (
+    with_defaults(keys, "cylinder", _CYLINDER, bore=None) for keys in (MACHINE_FILE, LOADED_FILE)
+)
 STARTED_ENGINE = with_defaults(LOADED_FILE, "crank", _CRANK, speed="1 rad/s")

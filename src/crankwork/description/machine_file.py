@@ -69,9 +69,10 @@ if TYPE_CHECKING:
     from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
-_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE)
+_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE,
+            engine_files.OFFSET_FILE)
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
-_LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
+_LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE, engine_files.LOADED_OFFSET_FILE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
 _ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE)
 FILES = (*_ENGINES, *_LOADED, *_LINKAGES, *_ALONE)
@@ -374,6 +375,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
     if is_alone:
         return engine_files.CYCLE_FILE
+    if set(stated) == {"offset"} and not is_started:
+        return engine_files.LOADED_OFFSET_FILE if is_loaded else engine_files.OFFSET_FILE
     if is_started:
         return engine_files.STARTED_ENGINE
     return LOADED_FILE if is_loaded else MACHINE_FILE
