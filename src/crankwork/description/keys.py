@@ -158,6 +158,7 @@ _ROTOR_SECTIONS = (
     "summary", "task", "planes", "comparison", "checks", "conclusion", "nomenclature", "sources",
 )  # fmt: skip
 _TEST_SECTIONS = ("summary", "task", "test", "checks", "conclusion", "nomenclature", "sources")
+_CLUTCH_SECTIONS = ("summary", "task", "clutch", "checks", "conclusion", "nomenclature", "sources")
 _WORDS = Text(300)
 _HEAD = (
     "title_en", "title_ru", "title_vi",
@@ -296,7 +297,7 @@ ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key
 TEST_DOCUMENT = document_key(_TEST_SECTIONS)
 TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
 STAGES_DOCUMENT = document_key(_STAGES_SECTIONS)
-ROTOR_DOCUMENT = document_key(_ROTOR_SECTIONS)
+ROTOR_DOCUMENT, CLUTCH_DOCUMENT = document_key(_ROTOR_SECTIONS), document_key(_CLUTCH_SECTIONS)
 
 
 def stated_document(values: Mapping[str, Any]) -> Document:
@@ -901,6 +902,37 @@ TEST_FILE = TableSpec("file", {
     "crank": KeySpec(_TURNED),
     "cylinder": KeySpec(TableSpec("cylinder", {key: _CYLINDER.keys[key]._replace(required=False) for key in _BORED})),
     "test": KeySpec(_ALONE, required=True),
+    "method": KeySpec(METHOD),
+})  # fmt: skip
+
+
+_CLUTCH_SHAFT = {
+    "speed": KeySpec(SPEED),
+    "inertia": KeySpec(_DISC_INERTIA, instead_of=("mass",)),
+    "mass": KeySpec(Quantity(("mass",), 0.0, 1e9), instead_of=("inertia",)),
+    "radius_of_gyration": KeySpec(LENGTH, required=True, only={"mass": ()}),
+    "torque": KeySpec(TORQUE),
+}
+_OF_FACE = ("outer_diameter", "inner_diameter")
+CLUTCH_FILE = TableSpec("file", {
+    **TITLE,
+    "document": CLUTCH_DOCUMENT,
+    "clutch": KeySpec(TableSpec("clutch", {
+        "contact": KeySpec(Choice(("uniform wear", "uniform pressure")), default="uniform wear",
+                           only={"outer_diameter": ()}),
+        "faces": KeySpec(Number(1, 1000, whole=True), default=2, instead_of=("cone_angle",), only={"friction": ()}),
+        "friction": KeySpec(Number(0.0, 2.0, above=True)),
+        "outer_diameter": KeySpec(LENGTH, instead_of=("mean_radius",)),
+        "inner_diameter": KeySpec(LENGTH, required=True, only={"outer_diameter": ()}),
+        "mean_radius": KeySpec(LENGTH, instead_of=_OF_FACE),
+        "cone_angle": KeySpec(Quantity(("angle",), 0.01, math.pi / 2), instead_of=("faces",)),
+        "force": KeySpec(Quantity(("force",), 0.0, 1e9, above=True), instead_of=("pressure", "torque")),
+        "pressure": KeySpec(Quantity(("pressure",), 1.0, 1e9), instead_of=("force", "torque"),
+                            only={"outer_diameter": ()}),
+        "torque": KeySpec(Quantity(("torque",), 0.0, 1e9, above=True), instead_of=("force", "pressure")),
+        "driving": KeySpec(TableSpec("clutch_shaft", _CLUTCH_SHAFT)),
+        "driven": KeySpec(TableSpec("clutch_shaft", _CLUTCH_SHAFT)),
+    }), required=True),
     "method": KeySpec(METHOD),
 })  # fmt: skip
 

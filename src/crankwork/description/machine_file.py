@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from crankwork import files
 from crankwork.analysis import prepare
 from crankwork.description import keys as engine_files
-from crankwork.description.build import SIZES, build_machine, build_test
+from crankwork.description.build import SIZES, build_clutch, build_machine, build_test
 from crankwork.description.keys import (
+    CLUTCH_FILE,
     FORMATS,
     LOADED_FILE,
     LOADED_SIZED_FILE,
@@ -69,18 +70,18 @@ if TYPE_CHECKING:
     from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
-_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE,
-            engine_files.OFFSET_FILE)
+_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE, engine_files.OFFSET_FILE)
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
 _LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE, engine_files.LOADED_OFFSET_FILE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
-_ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE)
+_ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE, CLUTCH_FILE)
 FILES = (*_ENGINES, *_LOADED, *_LINKAGES, *_ALONE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # tables that need no mechanism, tables of one, and the keys of a file that has none of these
 _WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
     ("rotor", (), ROTOR_FILE),
+    ("clutch", (), CLUTCH_FILE),
     ("test", (*_OF_LINKAGES, "rod"), TEST_FILE),
     ("stages", (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle"), STAGES_FILE),
     ("torsion", (*_OF_LINKAGES, "rod", "piston", "cylinder", "engine", "gas", "cycle", "torque", "load"), TORSION_FILE),
@@ -321,8 +322,8 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | 
         if keys in _TABULATED:
             return build_tabulated(read_values, reader)
         return build_linkage(read_values, reader)
-    if keys is TEST_FILE:
-        return build_test(read_values, reader)
+    if keys in (TEST_FILE, CLUTCH_FILE):
+        return (build_test if keys is TEST_FILE else build_clutch)(read_values, reader)
     return _solvable(build_machine(read_values, reader), read_values, reader)
 
 
@@ -375,11 +376,11 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
     if is_alone:
         return engine_files.CYCLE_FILE
-    if set(stated) == {"offset"} and not is_started:
-        return engine_files.LOADED_OFFSET_FILE if is_loaded else engine_files.OFFSET_FILE
     if is_started:
         return engine_files.STARTED_ENGINE
-    return LOADED_FILE if is_loaded else MACHINE_FILE
+    whole = (MACHINE_FILE, LOADED_FILE)
+    files = (engine_files.OFFSET_FILE, engine_files.LOADED_OFFSET_FILE) if set(stated) == {"offset"} else whole
+    return files[is_loaded]
 
 
 def parse(source: str, name: str) -> dict[str, Any]:
