@@ -357,8 +357,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return TRANSFER_FILE
     if isinstance(table := values.get("table"), dict) and "angles" in table and "rod" not in values:
         return GIVEN_MOTION_FILE
-    for name, others, keys in _WITHOUT_MECHANISM:
-        if name in values and not any(other in values for other in others):
+    for name, excluded, keys in _WITHOUT_MECHANISM:
+        if name in values and values.keys().isdisjoint(excluded):
             return keys
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
@@ -378,9 +378,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return engine_files.CYCLE_FILE
     if is_started:
         return engine_files.STARTED_ENGINE
-    whole = (MACHINE_FILE, LOADED_FILE)
-    files = (engine_files.OFFSET_FILE, engine_files.LOADED_OFFSET_FILE) if set(stated) == {"offset"} else whole
-    return files[is_loaded]
+    with_offset = (engine_files.OFFSET_FILE, engine_files.LOADED_OFFSET_FILE)
+    return ((MACHINE_FILE, LOADED_FILE), with_offset)[set(stated) == {"offset"}][is_loaded]
 
 
 def parse(source: str, name: str) -> dict[str, Any]:
