@@ -464,6 +464,8 @@ class Machine:
     test: Mapping[str, tuple[float, ...]] | None = None
     # The torsional system of its shaft
     torsion: TorsionModel | None = None
+    # What is known of a friction clutch, by key: numbers in SI, and the word for its contact
+    clutch: Mapping[str, float | str] | None = None
 
     @property
     def lengths(self) -> SliderCrank | None:
@@ -477,12 +479,12 @@ class Machine:
 
     @property
     def alone(self) -> str:
-        """What is calculated without a mechanism: torsion, turning, rotor, stages or test; empty with one."""
+        """What is calculated without a mechanism: torsion, turning, rotor, stages, test or clutch; empty with one."""
         if self.moves or self.transfer is not None:
             return ""
         if self.turning is not None:
             return "turning" if self.turning.diagrams else "torsion"
-        return next((name for name in ("rotor", "stages", "test") if getattr(self, name) is not None), "")
+        return next((name for name in ("rotor", "stages", "test", "clutch") if getattr(self, name) is not None), "")
 
     @property
     def inclination(self) -> float:

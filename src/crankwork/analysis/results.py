@@ -436,7 +436,8 @@ class Results(Mapping[str, Array | float]):
         if angle_or_time is None:
             middle = float(self.grid.degrees[len(self.grid) // 2])
             raise CrankworkError(ErrorMessage("angle_missing", key=key, example=f"{middle:g}"))
-        if not 0 <= angle_or_time <= self.machine.cycle:
+        first, last = min(0.0, self.grid.degrees[0]), max(self.machine.cycle, self.grid.degrees[-1])
+        if not first <= angle_or_time <= last:
             raise CrankworkError(ErrorMessage("angle_outside", angle=angle_or_time, cycle=self.machine.cycle))
         return float(angle_or_time)
 

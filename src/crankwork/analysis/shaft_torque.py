@@ -153,6 +153,9 @@ def _balance(
     torque = total_torque + J_1 * (w.value**2 / 2)
     if not eps.is_absent:
         torque = torque + (J + -drive.value) * eps.value
+    if max(map(abs, torque.extremes()[::2])) <= _CANCELLED * max(map(abs, total_torque.extremes()[::2])):
+        # without gas and weights rounding is all that is left
+        torque = torque * 0.0
     return Balance(static, torque, inertia, J, excess_work(torque))
 
 

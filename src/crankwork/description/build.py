@@ -158,6 +158,32 @@ def build_test(values: Values, reader: Reader) -> Machine | None:
     return machine
 
 
+def build_clutch(values: Values, reader: Reader) -> Machine | None:
+    """Return the machine of a clutch alone, or None after complaints."""
+    from crankwork.analysis.clutch import analyse_clutch  # noqa: PLC0415 - few files have a clutch
+
+    method, table = exact_method(values, reader), values["clutch"]
+    if reader.problems or table is None:
+        return None
+    if "outer_diameter" in table and table.si("inner_diameter") >= table.si("outer_diameter"):
+        reader.add_error("clutch.inner_diameter", ErrorMessage("clutch_inner"))
+        return None
+    known: dict[str, float | str] = {"contact": table["contact"] or "uniform wear"}
+    for side, part in (("", table), ("driving.", table["driving"]), ("driven.", table["driven"])):
+        for key in part or ():
+            if isinstance(part[key], MeasuredValue | int | float):
+                known[f"{side}{key}"] = part.si(key) if isinstance(part[key], MeasuredValue) else part[key]
+    if "friction" in table and "cone_angle" not in table:
+        known["faces"] = table["faces"]
+    machine = machine_alone(values, method, 1.0, clutch=known)
+    try:
+        analyse_clutch(machine)
+    except CrankworkError as error:
+        reader.add_error(getattr(error, "key", "clutch"), error.args[0])
+        return None
+    return machine
+
+
 def _torsion(
     values: Values, engine: Engine | None, lengths: tuple[float, float, float] | None, reader: Reader
 ) -> TorsionModel | None:

@@ -158,6 +158,7 @@ _ROTOR_SECTIONS = (
     "summary", "task", "planes", "comparison", "checks", "conclusion", "nomenclature", "sources",
 )  # fmt: skip
 _TEST_SECTIONS = ("summary", "task", "test", "checks", "conclusion", "nomenclature", "sources")
+_CLUTCH_SECTIONS = ("summary", "task", "clutch", "checks", "conclusion", "nomenclature", "sources")
 _WORDS = Text(300)
 _HEAD = (
     "title_en", "title_ru", "title_vi",
@@ -296,7 +297,7 @@ ENGINE_DOCUMENT, LINKAGE_DOCUMENT = document_key(_ENGINE_SECTIONS), document_key
 TEST_DOCUMENT = document_key(_TEST_SECTIONS)
 TRANSFER_DOCUMENT, TURNING_DOCUMENT = document_key(_TRANSFER_SECTIONS), document_key(_TURNING_SECTIONS)
 STAGES_DOCUMENT = document_key(_STAGES_SECTIONS)
-ROTOR_DOCUMENT = document_key(_ROTOR_SECTIONS)
+ROTOR_DOCUMENT, CLUTCH_DOCUMENT = document_key(_ROTOR_SECTIONS), document_key(_CLUTCH_SECTIONS)
 
 
 def stated_document(values: Mapping[str, Any]) -> Document:
@@ -905,6 +906,37 @@ TEST_FILE = TableSpec("file", {
 })  # fmt: skip
 
 
+_CLUTCH_SHAFT = {
+    "speed": KeySpec(SPEED),
+    "inertia": KeySpec(_DISC_INERTIA, instead_of=("mass",)),
+    "mass": KeySpec(Quantity(("mass",), 0.0, 1e9), instead_of=("inertia",)),
+    "radius_of_gyration": KeySpec(LENGTH, required=True, only={"mass": ()}),
+    "torque": KeySpec(TORQUE),
+}
+_OF_FACE = ("outer_diameter", "inner_diameter")
+CLUTCH_FILE = TableSpec("file", {
+    **TITLE,
+    "document": CLUTCH_DOCUMENT,
+    "clutch": KeySpec(TableSpec("clutch", {
+        "contact": KeySpec(Choice(("uniform wear", "uniform pressure")), default="uniform wear",
+                           only={"outer_diameter": ()}),
+        "faces": KeySpec(Number(1, 1000, whole=True), default=2, instead_of=("cone_angle",), only={"friction": ()}),
+        "friction": KeySpec(Number(0.0, 2.0, above=True)),
+        "outer_diameter": KeySpec(LENGTH, instead_of=("mean_radius",)),
+        "inner_diameter": KeySpec(LENGTH, required=True, only={"outer_diameter": ()}),
+        "mean_radius": KeySpec(LENGTH, instead_of=_OF_FACE),
+        "cone_angle": KeySpec(Quantity(("angle",), 0.01, math.pi / 2), instead_of=("faces",)),
+        "force": KeySpec(Quantity(("force",), 0.0, 1e9, above=True), instead_of=("pressure", "torque")),
+        "pressure": KeySpec(Quantity(("pressure",), 1.0, 1e9), instead_of=("force", "torque"),
+                            only={"outer_diameter": ()}),
+        "torque": KeySpec(Quantity(("torque",), 0.0, 1e9, above=True), instead_of=("force", "pressure")),
+        "driving": KeySpec(TableSpec("clutch_shaft", _CLUTCH_SHAFT)),
+        "driven": KeySpec(TableSpec("clutch_shaft", _CLUTCH_SHAFT)),
+    }), required=True),
+    "method": KeySpec(METHOD),
+})  # fmt: skip
+
+
 # for files in which a required power, a displacement or a ratio gives bore and stroke
 _SIZED = with_defaults(MACHINE_FILE, "crank", _CRANK, radius=None)
 SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
@@ -916,5 +948,9 @@ CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for
 # for engines with loads or friction, whose note is that of a linkage
 LOADED_FILE, LOADED_SIZED_FILE = (
     keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT}) for keys in (MACHINE_FILE, SIZED_FILE)
+)
+# where an offset is all that is known of the cylinder
+OFFSET_FILE, LOADED_OFFSET_FILE = (
+    with_defaults(keys, "cylinder", _CYLINDER, bore=None) for keys in (MACHINE_FILE, LOADED_FILE)
 )
 STARTED_ENGINE = with_defaults(LOADED_FILE, "crank", _CRANK, speed="1 rad/s")

@@ -387,7 +387,7 @@ _STROKE = TableSpec("press_stroke", {
     "thickness": KeySpec(_LENGTH.kind),
     "hole_diameter": KeySpec(_LENGTH.kind, instead_of=("cut_width",), only={"thickness": ()}),
     "cut_width": KeySpec(_LENGTH.kind, instead_of=("hole_diameter",), only={"thickness": ()}),
-    "from": KeySpec(_ANY_TURN, default="0 deg"),
+    "from": KeySpec(_STRETCH._replace(above=False), default="0 deg"),
     "over": KeySpec(NumberOr(_STRETCH, Number(0.0, 1.0, above=True)), instead_of=("punch_stroke",)),
     "punch_stroke": KeySpec(_LENGTH.kind, instead_of=("over",), only={"thickness": ()}),
     "shape": KeySpec(Choice(get_args(Shape)), default="constant"),

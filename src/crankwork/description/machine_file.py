@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
 from crankwork.description import keys as engine_files
-from crankwork.description.build import SIZES, build_machine, build_test
+from crankwork.description.build import SIZES, build_clutch, build_machine, build_test
 from crankwork.description.keys import (
+    CLUTCH_FILE,
     FORMATS,
     LOADED_FILE,
     LOADED_SIZED_FILE,
@@ -70,17 +71,18 @@ if TYPE_CHECKING:
     from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
-_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE)
+_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE, engine_files.OFFSET_FILE)
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
-_LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
+_LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE, engine_files.LOADED_OFFSET_FILE)
 _LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
-_ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE)
+_ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE, CLUTCH_FILE)
 FILES = (*_ENGINES, *_LOADED, *_LINKAGES, *_ALONE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # tables that need no mechanism, tables of one, and the keys of a file that has none of these
 _WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
     ("rotor", (), ROTOR_FILE),
+    ("clutch", (), CLUTCH_FILE),
     ("test", (*_OF_LINKAGES, "rod"), TEST_FILE),
     ("stages", (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle"), STAGES_FILE),
     ("torsion", (*_OF_LINKAGES, "rod", "piston", "cylinder", "engine", "gas", "cycle", "torque", "load"), TORSION_FILE),
@@ -322,8 +324,8 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | 
         if keys in _TABULATED:
             return build_tabulated(read_values, reader)
         return build_linkage(read_values, reader)
-    if keys is TEST_FILE:
-        return build_test(read_values, reader)
+    if keys in (TEST_FILE, CLUTCH_FILE):
+        return (build_test if keys is TEST_FILE else build_clutch)(read_values, reader)
     return _solvable(build_machine(read_values, reader), read_values, reader)
 
 
@@ -355,8 +357,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return TRANSFER_FILE
     if isinstance(table := values.get("table"), dict) and "angles" in table and "rod" not in values:
         return GIVEN_MOTION_FILE
-    for name, others, keys in _WITHOUT_MECHANISM:
-        if name in values and not any(other in values for other in others):
+    for name, excluded, keys in _WITHOUT_MECHANISM:
+        if name in values and values.keys().isdisjoint(excluded):
             return keys
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
@@ -376,7 +378,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return engine_files.CYCLE_FILE
     if is_started:
         return engine_files.STARTED_ENGINE
-    return LOADED_FILE if is_loaded else MACHINE_FILE
+    with_offset = (engine_files.OFFSET_FILE, engine_files.LOADED_OFFSET_FILE)
+    return ((MACHINE_FILE, LOADED_FILE), with_offset)[set(stated) == {"offset"}][is_loaded]
 
 
 def parse(source: str, name: str) -> dict[str, Any]:

@@ -266,7 +266,7 @@ def _stroke(values: Values | None, path: str, period: float, scale: float, shaft
     if over > period * (1 + _CLOSED):
         message = ErrorMessage("stretch_long", over=math.degrees(over), period=math.degrees(period))
         reader.add_error(f"{path}.over" if "over" in values else f"{path}.punch_stroke", message)
-    start = values.si("from")
+    start = _angle(values["from"], shaft)
     if start > period * (1 + _CLOSED):
         reader.add_error(f"{path}.from", ErrorMessage("points_beyond", period=math.degrees(period)))
     return WorkStroke(work, start, min(over, period), values["shape"], values.get("peak", 0.5))

@@ -181,7 +181,9 @@ class ConfigurationCurve:
         if far.any():
             guess[far] = self.system.corrector(guess[far], normal[far])
             with np.errstate(invalid="ignore"):
-                tangent[far], _ = self.system.tangents(guess[far], normal[far])
+                exact, _ = self.system.tangents(guess[far], normal[far])
+            # where several curves cross only the interpolated tangent has a direction
+            tangent[far] = np.where(np.isfinite(exact), exact, tangent[far])
         rotation = turns[:, None] * (self.knots[-1] - self.knots[0])
         scale = self.system.equations.scale
         return (guess + rotation) * scale, tangent * scale

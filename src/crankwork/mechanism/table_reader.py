@@ -301,7 +301,7 @@ class _Reader:
             self._problem(f"{key}.mass", ErrorMessage("number_missing"))
         member, mass = _weighed(table, member, member.points, 1.0)
         inertia = self._inertia(table)
-        centre = table.get("centre", next(iter(member.points), "") if member.guide else None)
+        centre = table.get("centre", next(iter(member.points), (0.0, 0.0)) if member.guide else None)
         if not isinstance(centre, str):
             name, place = f"{member.name}.centre", _centre_place(centre or 0.0, member.points)
             member = replace(member, centre_share=_share(centre))
@@ -311,7 +311,7 @@ class _Reader:
             return self._of_length(key, table, member, member.points)
         if centre not in member.points:
             message = ErrorMessage(
-                "centre_of_link" if not member.guide else "centre_unknown" if centre else "centre_missing",
+                "centre_unknown" if member.guide else "centre_of_link",
                 centre=centre, link=member.name, known=", ".join(member.points),
             )  # fmt: skip
             self._problem(f"{key}.centre", message)

@@ -48,6 +48,7 @@ _OF_LINKAGES = frozenset((
     "stage_power", "stage_saving", "heat_removed", "overall_isothermal_efficiency", "crosshead_load_tension",
     "crosshead_load_compression", "mean_flow", "flow_pulsation", "vessel_volume_change", "vessel_saving",
     "bearing_load_max", "mean_bearing_load", "natural_frequency", "vibration_stress",
+    "clutch_torque", "clutch_force", "slip_time", "engaged_speed", "slip_heat",
     "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
 ))  # fmt: skip
 # digits of differences, and what of a residual is rounding
@@ -55,6 +56,7 @@ _DIGITS, _ROUNDING = 3, 1e-9
 # in their order; of what links, joints and cylinders have the largest is before
 _NUMBERS = (
     "effective_power", "indicated_power", "motor_power", "shaft_power", "stage_power", "stage_saving",
+    "clutch_torque", "clutch_force", "slip_time", "engaged_speed", "slip_heat",
     "overall_isothermal_efficiency", "heat_removed", "mean_flow",
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",

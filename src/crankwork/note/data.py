@@ -42,6 +42,7 @@ from crankwork.report.display import key_unit, link_label
 from crankwork.report.drawing import crank_gear_scheme
 from crankwork.report.sketch import Length
 from crankwork.report.summary import results_method
+from crankwork.units import UNITS
 
 GEAR = ("rotational_speed", "angular_acceleration", "stroke", "crank_radius", "rod_length", "rod_ratio", "offset")
 _SIZES = (
@@ -459,10 +460,15 @@ def _ratios(table: TransferTable, words: Words) -> Iterator[Column]:
                 yield Column(words.titled(f"{key}.{body.name}", unit), [words.number(value) for value in values])
 
 
+# what is calculated from a table of data alone
+_TABULAR = ("test", "clutch")
+
+
 def _stated(material: Material) -> Iterator[Block]:
     """Yield the table of the numbers that are given of stages."""
     traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node)]
-    known = {value.key: value.value for value in traced if not (isinstance(value.node, Input) and value.node.unit)}
+    units = {value.key: value.node.unit for value in traced if isinstance(value.node, Input) and value.node.unit}
+    known = {value.key: value.value * (UNITS[units[value.key]].factor if value.key in units else 1) for value in traced}
     rows = [value_row(key, value, material.words, digits=material.digits) for key, value in known.items() if key]
     yield value_table("data", rows, material.words)
 
@@ -540,6 +546,7 @@ SECTIONS = (
         Head("task"),
         Text("rotor_task", {"count": lambda material: str(len(material.results.listings["planes"].names))}),
     ), machine_has("rotor")),
+    Section("task", (Head("task"), Text("task_given"), _stated), lambda material: material.machine.alone in _TABULAR),
     Section("task", (Head("task"), Text("task_stages"), _stated, _method), every(machine_has("stages"), lacks(drawn))),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),

@@ -452,6 +452,9 @@ SECTIONS = (
         Shown(("log_indicator", "combustion", "recorded_cycles"), (Rows("fitted_polytropes", "fitted_polytropes"),)),
     ), works("burning")),
     Section("test", (Head("test"), Lines("test", intro="test", source="heywood_1988, ch. 2")), works("test")),
+    Section("clutch", (
+        Head("clutch"), Lines("clutch", intro="clutch", source="khurmi_gupta_2005, ch. 10"),
+    ), works("clutch")),
     Section("chambers", (
         Head("chambers"), Text("chambers", {"source": Citation(_VOLUME)}),
         When(lambda material: any(charge.exponent is None for charge in material.machine.charges.values()), (

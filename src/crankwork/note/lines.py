@@ -252,9 +252,9 @@ def _of_piston(results: Results, angle: float, force_angle: float | None) -> Ite
     yield Group("balance", _own(loaded, results, orders))
 
 
-def _of_test(results: Results) -> Group:
-    """Return the lines of what follows from a test."""
-    return Group("test", _own(results.moment(), results, results.groups.get("test", ())))
+def _of_test(results: Results, name: str = "test") -> Group:
+    """Return the lines of what follows from a test, or from a clutch."""
+    return Group(name, _own(results.moment(), results, results.groups.get(name, ())))
 
 
 def _of_cylinder(machine: Machine, keys: Iterable[str]) -> tuple[str, ...]:
@@ -624,4 +624,5 @@ _ALONE: dict[str, Callable[[Results], Iterable[Group]]] = {
     "torsion": _of_shaft,
     "rotor": _of_rotor,
     "stages": _of_stages,
+    "clutch": lambda results: (_of_test(results, "clutch"),),
 }

@@ -76,7 +76,7 @@ ESSENTIAL = frozenset((
     "crosshead_load", "mean_rod_load", "vessel_flow", "flow_pulsation", "vessel_volume_change", "vessel_saving",
 ))  # fmt: skip
 # groups that every note shows all of
-_WHOLE = ("test", "burning")
+_WHOLE = ("test", "burning", "clutch")
 # masses of a rod, which stand with those that they are parts of
 _OF_ROD = ("rod_small_end_mass", "rod_big_end_mass", "rod_centre_distance")
 # height of the figures of a linkage over that elsewhere

@@ -60,10 +60,10 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 # sections in the order of a school; those that results have nothing for are left out
 _LINKAGE = (
-    "summary", "task", "test", "structure", "planes", "static", "dynamic", "driving", "moments", "energy", "kinematics",
-    "quality", "chambers", "stages", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics",
-    "motor", "flywheel", "law_of_motion", "torsion", "transient", "comparison", "checks", "conclusion", "nomenclature",
-    "sources", "appendix",
+    "summary", "task", "test", "clutch", "structure", "planes", "static", "dynamic", "driving", "moments", "energy",
+    "kinematics", "quality", "chambers", "stages", "forces", "balance", "reduction", "torques", "friction", "bearings",
+    "harmonics", "motor", "flywheel", "law_of_motion", "torsion", "transient", "comparison", "checks", "conclusion",
+    "nomenclature", "sources", "appendix",
 )  # fmt: skip
 # sections of a linkage that the main course leaves out
 _FULL = ("bearings",)
@@ -170,6 +170,7 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
 # titles and subtitles where there is no mechanism
 _ALONE = {
     "test": ("test", "test_subtitle"),
+    "clutch": ("clutch", "clutch_subtitle"),
     "turning": ("turning", "turning_subtitle"),
     "torsion": ("torsion", "torsion_subtitle"),
     "rotor": ("rotor", "rotor_subtitle"),

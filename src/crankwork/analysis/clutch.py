@@ -1,0 +1,51 @@
+"""A friction clutch: its torque, and the time, the speed and the heat of an engagement."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from crankwork.analysis.prepared import PreparedMachine
+from crankwork.analysis.results import Results
+from crankwork.formula.calculation import Calculation
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.loads.indicator import DiagramError
+from crankwork.locale import ErrorMessage
+from crankwork.machine import Machine
+from crankwork.shaft.clutch import inertia_of_side, work_clutch
+
+# quantities of the numbers that a file states, and those of a shaft behind its name
+_QUANTITIES = {
+    "faces": "friction_faces", "friction": "clutch_friction", "outer_diameter": "clutch_outer_diameter",
+    "inner_diameter": "clutch_inner_diameter", "mean_radius": "clutch_radius", "cone_angle": "cone_angle",
+    "force": "clutch_force", "pressure": "clutch_pressure", "torque": "clutch_torque",
+}  # fmt: skip
+_OF_SIDE = {"torque": "load", "radius_of_gyration": "gyration_radius"}
+
+
+def analyse_clutch(machine: Machine) -> Results:
+    """Return the results of a clutch (khurmi_gupta_2005, ch. 10); raise DiagramError if nothing follows."""
+    worked, numbers = Calculation(), dict(machine.clutch or {})
+    contact = str(numbers.pop("contact", "uniform wear"))
+    for path, value in numbers.items():
+        side, _, key = path.rpartition(".")
+        quantity = f"{side}_{_OF_SIDE.get(key, key)}" if side else _QUANTITIES[key]
+        worked.given(quantity, float(value), f"clutch.{path}")
+    for side in ("driving", "driven"):
+        if f"{side}_mass" in worked.known:
+            sizes = {"m_cl": worked[f"{side}_mass"], "k_cl": worked[f"{side}_gyration_radius"]}
+            worked(inertia_of_side, f"{side}_inertia", **sizes)
+        if f"{side}_load" not in worked.known:
+            worked.absent(f"{side}_load")
+    if "driven_speed" not in worked.known:
+        worked.absent("driven_speed")
+    work_clutch(worked, contact, machine.method.pi)
+    if not worked.found.keys() - {"driving_inertia", "driven_inertia"}:
+        raise DiagramError("clutch", ErrorMessage("clutch_nothing"))
+    rate = worked.known.get("closing_acceleration")
+    if rate is not None and rate.value <= 0:
+        raise DiagramError("clutch.driven.torque", ErrorMessage("clutch_slips"))
+    trace = {key: value for key, value in {**worked.known, **worked.found}.items() if not value.is_absent}
+    summary = {key: value.value for key, value in trace.items()}
+    solved = PreparedMachine(machine, machine.method, machine.speed)
+    grid = CrankGrid.from_degrees(np.array([0.0]))
+    return Results(solved, grid, {}, summary, {}, (), {"clutch": tuple(trace)}, trace=trace)
