@@ -21,6 +21,7 @@ from crankwork.formula.traced_value import (
     FunctionValue,
     Node,
     ProcedureValue,
+    Root,
     TracedValue,
     breakpoints_of,
     in_order,
@@ -48,11 +49,15 @@ Array = NDArray[np.float64]
 # widths of panels that are tried, and the truncation error at which a column is accepted
 _WIDTHS = (30.0, 15.0, 7.5, 3.75)
 CONVERGED = 1e-12
+# how often panels are divided where friction forces are not followed, and into how many
+_DIVISIONS, _PARTS = 7, 4
 # limit of the breakpoints of a grid, with those of delayed columns
 _MAX_BREAKPOINTS = 400
 _POLYNOMIALS = lobatto(16)
 # designs per batch of values that do not depend on the crank angle
 _BATCH_SIZE = 2048
+# first step of the secant method, the step after which it ends, and the largest last step [deg]
+_FIRST_STEP, _PLACED, _NEARLY_PLACED, _MAX_SECANTS = 1e-3, 1e-11, 1e-8, 20
 
 
 class BatchResult(NamedTuple):
@@ -100,23 +105,36 @@ class Kernel:
         is_compiled = compiles() and not is_for_few
         # what the ends of laws follow from, calculated by a kernel of its own: further inputs of this one
         self._before: Kernel | None = None
-        beforehand = dict[int, int]()
+        # where friction forces have corners, other inputs
+        self._corners: Crossings | None = None
+        corners = [] if steps else _corners(traced)
+        beforehand = {id(place.node): index for index, place in enumerate(corners, start=self.fields)}
         widths = [width for width in _WIDTHS if width * parts <= cycle] or _WIDTHS[-1:]
-        for width in (cycle,) if steps else widths:
-            grid, edges = _grid(breaks, delays, width, steps)
+        # forces that nearly vanish turn within thousandths of a degree
+        divided = _DIVISIONS if designs.roots and not delays else 0
+        divided_edges = None
+        for width in (cycle,) if steps else (*widths[: 1 if divided else None], *[0.0] * divided):
+            if divided_edges is None:
+                grid, edges = _grid(breaks, delays, width, steps)
+            else:
+                grid, edges = _grid_between(divided_edges), divided_edges
             grid = grid if rows is None else grid.with_rows(rows)
             is_shifted = any(grid.earlier(delay) is None for delay in delays)
-            lower = partial(Lowering, designs, angles_at, grid.degrees, is_shifted=is_shifted)
-            lowering = lower(beforehand=beforehand)
-            outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
-            if not steps and not beforehand and (reduced := lowering.reduced_before_ends()):
+            lower = partial(Lowering, designs, angles_at, grid.degrees, is_shifted=is_shifted, is_exact=not steps)
+            if divided_edges is None:
+                lowering = lower(beforehand=beforehand)
+                outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
+            reduced = lowering.reduced_before_ends() if not steps and len(beforehand) == len(corners) else {}
+            if reduced:
                 # panels are laid before any value is reduced, and an end may follow from an extreme
-                beforehand = {node: index for index, node in enumerate(reduced, start=self.fields)}
+                beforehand |= {node: index for index, node in enumerate(reduced, start=self.fields + len(corners))}
                 self._before = Kernel(
                     *_traces_of(designs, reduced.values()), angles_at, cycle=cycle, start=start, is_for_few=is_for_few
                 )
                 lowering = lower(beforehand=beforehand)
                 outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
+            if corners and self._corners is None:
+                self._corners = Crossings(designs, corners, lower(beforehand=beforehand), grid, len(beforehand))
             if lowering.moving and steps:
                 grid = uniform_grid(lowering.zones(breaks[0]), steps)
             elif lowering.moving and edges is not None:
@@ -144,6 +162,8 @@ class Kernel:
             error = self(fields.T).truncation_error
             if float(np.max(error, where=np.isfinite(error), initial=0.0)) <= enough:
                 break
+            if divided and edges is not None and np.isfinite(error).any():
+                divided_edges = edges.divided(self._coarse_panels(fields.T[:, np.isfinite(error)], enough), _PARTS)
         self._module = compiled(self.source.text) if is_compiled else None
 
     def _carry_out(self, grid: Grid, *, is_compiled: bool, steps: int | None, parts: int) -> None:
@@ -182,14 +202,18 @@ class Kernel:
 
     def _inputs(self, designs: Array) -> tuple[Array, Array]:
         """Return fields of designs and what is calculated beforehand, shape (inputs, n), and its truncation error."""
-        if self._before is None:
+        if self._before is None and self._corners is None:
             return designs, np.zeros(designs.shape[1])
-        before = self._before(designs)
-        return np.concatenate([designs, before.values]), before.truncation_error
+        empty = BatchResult(np.empty((0, designs.shape[1])), np.zeros(designs.shape[1]))
+        before = empty if self._before is None else self._before(designs)
+        corners = empty if self._corners is None else self._corners(designs, before.values)
+        error = np.maximum(before.truncation_error, corners.truncation_error)
+        return np.concatenate([designs, corners.values, before.values]), error
 
     def slopes(self, design: Array) -> tuple[Array, Array]:
         """Return single values of a design, shape (keys,), and their derivatives by its fields, (keys, fields). [SI]"""
-        if any(value.detail.startswith("procedure") for level in self.plan.levels for value in level.reductions):
+        procedures = (value.detail.startswith("procedure") for level in self.plan.levels for value in level.reductions)
+        if self._corners is not None or any(procedures):
             raise NotCompiledError("procedure", self.keys[0])
         store, columns = self._stores(1)
         inputs, _ = self._inputs(design[:, None])
@@ -203,6 +227,15 @@ class Kernel:
         if self._before is not None:
             slopes = slopes[:, : self.fields] + slopes[:, self.fields :] @ self._before.slopes(design)[1]
         return np.array(values), slopes
+
+    def _coarse_panels(self, designs: Array, enough: float) -> NDArray[np.bool_]:
+        """Return in which panels a column of one of these designs has a larger truncation error."""
+        store, columns = self._stores(designs.shape[1])
+        inputs, _ = self._inputs(designs)
+        store[: len(inputs)] = inputs
+        self._arrays.designs(0, store)
+        blocks = self._levels(store, columns, designs.shape[1])[1]
+        return np.any([block.coarse_panels(enough) for block in blocks if block is not None], axis=0)
 
     def truncation_error_of(self, designs: Array) -> Array:
         """Return the truncation error of the columns that each single value depends on, shape (keys, n)."""
@@ -299,6 +332,72 @@ class Kernel:
         return Script(self.source, _POLYNOMIALS)
 
 
+class Crossings:
+    """Crank angles at which columns pass zero, of many designs at once by the secant method. [deg]
+
+    `lowering`: of a calculation in which these angles are the inputs after the fields; `more`: number of further inputs.
+    """
+
+    def __init__(
+        self, designs: DesignTraces, places: Sequence[TracedValue], lowering: Lowering, grid: Grid, more: int
+    ) -> None:
+        self._fields = designs.fields
+        self._stated = np.array([[node.value for node in designs.counterparts(place.node)] for place in places]).T
+        first = self._fields.shape[1]
+        columns = {str(k): lowering.at_input(place, first + k) for k, place in enumerate(places)}
+        self._plan = Schedule(columns, grid, first + more, lowering.angles_at, shares=False)
+        self._source = Source(self._plan, is_reduced=False)
+        self._arrays = Arrays(self._source, np.zeros((0, 0), dtype=np.intp))
+
+    def __call__(self, designs: Array, more: Array) -> BatchResult:
+        """Return the angles of designs, shape (places, n), with an infinite error where one is not found."""
+        store = np.empty((len(self._source.rows.of), designs.shape[1]))
+        count, angles = len(designs), self._start(designs)
+        store[: len(designs)], store[count + len(angles) : count + len(angles) + len(more)] = designs, more
+        step, values = np.full(angles.shape, _FIRST_STEP), self._values(store, angles)
+        for _ in range(_MAX_SECANTS):
+            angles = angles + step
+            new = self._values(store, angles)
+            with np.errstate(all="ignore"):
+                step = np.where(new == values, 0.0, new * step / (values - new))
+            values = new
+            if not np.any(np.abs(step) > _PLACED):
+                break
+        is_found = np.all(np.abs(step) <= _NEARLY_PLACED, axis=0)
+        return BatchResult(np.where(is_found, angles, self._stated[0][:, None]), np.where(is_found, 0.0, np.inf))
+
+    def _start(self, designs: Array) -> Array:
+        """Return angles by parabolas through those of the designs compared, in each field."""
+        angles = np.repeat(self._stated[0][:, None], designs.shape[1], axis=1)
+        for index, x in enumerate(designs):
+            stated, low, high = self._fields[[0, 1 + 2 * index, 2 + 2 * index], index]
+            at_low, at_high = (self._stated[1 + 2 * index + end] - self._stated[0] for end in (0, 1))
+            for other, at, against in ((low, at_low, high), (high, at_high, low)):
+                if other != stated and other != against:
+                    share = (x - stated) * (x - against) / ((other - stated) * (other - against))
+                    angles += at[:, None] * share if against != stated else at[:, None] * (x - stated) / (other - stated)
+        return angles
+
+    def _values(self, store: Array, angles: Array) -> Array:
+        first = self._fields.shape[1]
+        store[first : first + len(angles)] = angles
+        self._arrays.designs(0, store)
+        outputs = self._plan.outputs.values()
+        return np.array([
+            store[self._source.rows(self._source.place(value))]
+            if not value.is_constant
+            else np.full(angles.shape[1], number(value))
+            for value in outputs
+        ])
+
+
+def _corners(traced: Iterable[TracedValue]) -> list[TracedValue]:
+    """Return the places at which unknowns that values depend on have corners."""
+    roots = [known.node for known in traced if isinstance(known.node, Root)]
+    places = [(column, place) for root in roots for column, ends in root.sides for place in ends]
+    return [place for column, place in places if place.node.operands[0] is column]
+
+
 def _traces_of(
     designs: DesignTraces, wanted: Iterable[TracedValue]
 ) -> tuple[list[dict[str, TracedValue]], Array, list[str]]:
@@ -340,9 +439,12 @@ def _grid(
     if steps:
         return uniform_grid(breaks[0], steps), None
     all_breaks = [with_delayed_breakpoints(of_design, delays, _MAX_BREAKPOINTS) for of_design in breaks]
-    edges, parts = subdivide(all_breaks[0], width)
-    grid = lobatto_grid(edges, np.zeros(edges.size - 1, dtype=bool), _POLYNOMIALS)
-    return grid, Edges(all_breaks, parts)
+    edges = subdivide(all_breaks, width)
+    return _grid_between(edges), edges
+
+
+def _grid_between(edges: Edges) -> Grid:
+    return lobatto_grid(edges.in_stated, np.zeros(edges.share.size, dtype=bool), _POLYNOMIALS)
 
 
 def compiles() -> bool:

@@ -81,7 +81,7 @@ class Schedule:
         delayed_columns = [column for value in needed if value.kind == "delayed" for column in value.operands]
         stored = {column.index: column.graph.delayed(column, 0.0) for column in delayed_columns}
         stored = {index: value for index, value in stored.items() if value.level <= level}
-        loops = tuple(self._loops(_replaced(list(columns), stored)))
+        loops = tuple(self._loops(replaced(list(columns), stored)))
         # after laws have been chosen, for example the product of a law and an area no longer depends on the angle
         operands = [operand for loop in loops for value in loop.values for operand in value.operands]
         operands += [column for loop in loops for column in loop.columns]
@@ -122,7 +122,7 @@ class Schedule:
             resolved = self._with_laws(columns, chosen, is_moving=is_moving)
             roots = [resolved[column.index] for column in columns]
             if self._shares:
-                roots = _replaced(roots, shared(roots, in_order(roots, into=_at_this_angle)))
+                roots = replaced(roots, shared(roots, in_order(roots, into=_at_this_angle)))
                 roots = _with_few_divisions(roots)
             needed = list(in_order(roots, into=lambda value: value.depends_on_design and _at_this_angle(value)))
             for value in needed:
@@ -227,14 +227,14 @@ def _with_few_divisions(roots: list[KernelValue]) -> list[KernelValue]:
             return roots
         (first, a), (second, b) = ((division, division.operands[1]) for division in pair)
         both = first.graph.apply("div", 1.0, a * b)
-        roots = _replaced(roots, {first.index: b * both, second.index: a * both})
+        roots = replaced(roots, {first.index: b * both, second.index: a * both})
 
 
 def _depends_on(value: KernelValue, other: KernelValue) -> bool:
     return any(operand is other for operand in in_order([value], into=_at_this_angle))
 
 
-def _replaced(roots: list[KernelValue], replacements: dict[int, KernelValue]) -> list[KernelValue]:
+def replaced(roots: list[KernelValue], replacements: dict[int, KernelValue]) -> list[KernelValue]:
     """Return values with some of their operands replaced."""
     results = dict(replacements)
     for value in in_order(roots, into=lambda node: node.index not in replacements and _at_this_angle(node)):
