@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis.mechanism_trace import joint_columns
 from crankwork.analysis.operating_state import operating_state
@@ -64,7 +65,7 @@ _CHANGES = ("margin", "ideal", "torque", "another")
 _STEP = 1.0
 # tolerance of the angle of a change of sign [deg]
 _PLACED = 1e-10
-_HALVINGS = 60
+_SECTIONS = 32
 
 
 @dataclass(frozen=True)
@@ -190,8 +191,8 @@ class FrictionRegimes:
             number, index = np.array(brackets).T
             values = np.array([*rows.values()])
 
-            def value_at(places: Array, active: Truth) -> Array:
-                by_key, row = self._rows(places), number[active]
+            def value_at(places: Array, index: NDArray[np.intp]) -> Array:
+                by_key, row = self._rows(places), number[index]
                 if self._is_double:
                     mask = row == keys.index("another")
                     by_key["another"] = np.ones(places.size)
@@ -258,35 +259,27 @@ class FrictionRegimes:
             yield Notice(f"{code}{suffix}", {"from": float(low * scale), "to": float(high * scale)})
 
 
-def _between(value_at: Callable[[Array, Truth], Array], low: Array, high: Array, ends: tuple[Array, Array]) -> Array:
-    """Return where functions change their sign between two places each: Ridders' method, halving where they jump.
+def _between(
+    value_at: Callable[[Array, NDArray[np.intp]], Array], low: Array, high: Array, ends: tuple[Array, Array]
+) -> Array:
+    """Return where functions change their sign between two places each, also where they jump.
 
-    `value_at` gives the functions in a mask at places. NaN counts as a sign of its own. `ends`: their values at both
-    places.
+    `value_at` gives those of some brackets at places. NaN counts as a sign of its own. `ends`: values at both places.
     """
-    (low, high), (first, last) = (low.copy(), high.copy()), (end.copy() for end in ends)
-    for _ in range(_HALVINGS):
-        active = high - low > _PLACED
-        if not active.any():
-            break
-        a, b, at_a, at_b = low[active], high[active], first[active], last[active]
-        middle = (a + b) / 2
-        value = value_at(middle, active)
-        with np.errstate(all="ignore"):
-            root = np.sqrt(value**2 - at_a * at_b)
-            nearer = middle + (middle - a) * np.sign(at_a - at_b) * value / root
-        # a step beyond the root narrows the bracket from the other side, too
-        beyond = np.clip(nearer + np.sign(nearer - middle) * _PLACED / 4, a, b)
-        for candidate in (middle, nearer, beyond):
-            place = np.where(np.isfinite(candidate), np.clip(candidate, a, b), middle)
-            new_value = value if candidate is middle else value_at(place, active)
-            is_inside = (place >= a) & (place <= b)
-            same = is_inside & (_sign(new_value) == _sign(at_a))
-            other = is_inside & ~same
-            a, at_a = np.where(same, place, a), np.where(same, new_value, at_a)
-            b, at_b = np.where(other, place, b), np.where(other, new_value, at_b)
-        low[active], high[active], first[active], last[active] = a, b, at_a, at_b
-    return np.asarray((low + high) / 2)
+    (low, high), values = (low.copy(), high.copy()), np.array(ends)
+    shares, brackets = np.linspace(0.0, 1.0, _SECTIONS + 1)[1:-1], np.arange(low.size)
+    while np.any(high - low > _PLACED):
+        places = low[:, None] + (high - low)[:, None] * shares
+        inside = value_at(places.ravel(), np.repeat(brackets, shares.size)).reshape(places.shape)
+        # the first place that has not the sign of the lower end
+        is_other = np.concatenate([_sign(inside) != _sign(values[0])[:, None], np.ones((low.size, 1), bool)], axis=1)
+        after = np.argmax(is_other, axis=1)
+        places, inside = np.column_stack([low, places, high]), np.column_stack([values[0], inside, values[1]])
+        low, high = (places[brackets, after + side] for side in (0, 1))
+        values = np.array([inside[brackets, after + side] for side in (0, 1)])
+    with np.errstate(all="ignore"):
+        share = values[0] / (values[0] - values[1])
+    return np.asarray(low + (high - low) * np.where(np.isfinite(share), share, 0.5))
 
 
 def _sign(values: Array) -> Array:
