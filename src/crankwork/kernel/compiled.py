@@ -102,7 +102,8 @@ class Kernel:
             raise NotCompiledError("procedure", next(iter(keys)))
         delays = sorted({operand.node.by for operand in traced if isinstance(operand.node, Delayed)})
         breaks = [breakpoints_of(_reduced([trace[key] for key in keys]), cycle, start) for trace in traces]
-        is_compiled = compiles() and not is_for_few
+        # thousands of operations of a root take a minute to compile
+        is_compiled = compiles() and not is_for_few and not designs.roots
         # what the ends of laws follow from, calculated by a kernel of its own: further inputs of this one
         self._before: Kernel | None = None
         # where friction forces have corners, other inputs
@@ -499,7 +500,7 @@ class Arrays:
         with np.errstate(all="ignore"):
             for loop in level.loops:
                 results: dict[int, Any] = {}
-                for value in loop.values:
+                for value, unused in zip(loop.values, loop.unused, strict=True):
                     if value.kind == "delayed":
                         row, delay = source.columns(value.operands[0].index), source.delays(value.detail)
                         results[value.index] = columns[row, self._places[delay, loop.angles]]
@@ -507,6 +508,8 @@ class Arrays:
                         results[value.index] = columns[source.columns(value.detail.index), loop.angles]
                     else:
                         results[value.index] = self._result(value, results, store, loop.angles)
+                    for index in unused:
+                        del results[index]
                 for column, value in zip(level.columns, loop.columns, strict=True):
                     columns[source.columns(column.index), loop.angles] = self._read(value, results, store, loop.angles)
 

@@ -21,11 +21,15 @@ Form = dict[tuple[KernelValue | None, KernelValue | None], float]
 
 
 class Loop(NamedTuple):
-    """Operations at the angles at which the same laws hold: values in order, and the stored columns."""
+    """Operations at the angles at which the same laws hold: values in order, and the stored columns.
+
+    `unused`: indices of those values that no later one needs, after each.
+    """
 
     angles: NDArray[np.intp]
     values: tuple[KernelValue, ...]
     columns: tuple[KernelValue, ...]  # In the order of `Level.columns`
+    unused: tuple[tuple[int, ...], ...]
 
 
 class Level(NamedTuple):
@@ -129,7 +133,7 @@ class Schedule:
                 if value.depends_on_angle and not value.depends_on_design and value.kind != "delayed":
                     self._put_in_table(value, angles)
             values = [value for value in needed if value.depends_on_angle and value.depends_on_design]
-            yield Loop(angles, tuple(values), tuple(roots))
+            yield Loop(angles, tuple(values), tuple(roots), _unused(values, roots))
 
     def _laws_at(self, value: KernelValue, middle: float) -> tuple[int, int]:
         """Return the first and the last of the laws that may hold at a crank angle, depending on the design."""
@@ -203,6 +207,16 @@ class Schedule:
                     case _:
                         results[value.index] = getattr(angles.multiple(multiple).shifted(shift), function)
         return results
+
+
+def _unused(values: Sequence[KernelValue], kept: Iterable[KernelValue]) -> tuple[tuple[int, ...], ...]:
+    """Return the indices of values that are used for the last time in each of them."""
+    place = {value.index: number for number, value in enumerate(values)}
+    last = place | {operand.index: number for number, value in enumerate(values) for operand in value.operands}
+    unused: list[list[int]] = [[] for _ in values]
+    for index in place.keys() - {value.index for value in kept}:
+        unused[last[index]].append(index)
+    return tuple(map(tuple, unused))
 
 
 def _at_this_angle(value: KernelValue) -> bool:
