@@ -197,8 +197,8 @@ class Root(Node):
     """Unknowns at which residuals vanish, on one circuit: `solve` gives them and their derivatives, shape (k, n).
 
     It takes the crank angles, or the columns that the unknowns follow `of`. `residuals` are what must vanish; they
-    are made of components of the root; `knots` are crank angles where unknowns are not smooth [deg]. `sides` are columns
-    by whose sign the residuals are not smooth, each with the crank angles at which it changes.
+    are made of components of the root; `knots` are crank angles where unknowns are not smooth [deg]. `sides` are
+    columns where whose signs change residuals have corners, each with the crank angles of that.
     """
 
     __slots__ = ("knots", "residuals", "sides", "solve")

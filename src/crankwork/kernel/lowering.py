@@ -571,6 +571,8 @@ class Lowering:
         match node:
             case FunctionValue():
                 return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
+            case ProcedureValue(word="against") if len({x.value for x in self._designs.counterparts(node)}) == 1:
+                return self.graph.constant(node.value or 0.0)
             case HarmonicCoefficient():
                 return self._harmonic(self.value(node.operands[0]), node)
         return self._of_word(known, node)
@@ -585,8 +587,6 @@ class Lowering:
             case "reached" if node.by is not None:
                 angles = [counterpart.value or 0.0 for counterpart in self._designs.counterparts(node)]
                 return self._angle_where(node.operands[0], self.value(node.by), angles)
-            case "against" if len({other.value for other in self._designs.counterparts(node)}) == 1:
-                return self.graph.constant(node.value or 0.0)
             case "sine" | "cosine":
                 return self.graph.apply("sin" if node.word == "sine" else "cos", self.value(node.operands[0]))
             case "mean" | "range" | "max" | "min" | "max_angle" | "min_angle" if node.operands[0].varies:
@@ -658,7 +658,9 @@ class Lowering:
             pivot[place:] = [value / pivot[place] for value in pivot[place:]]
             for row in rows:
                 if row is not pivot:
-                    row[place:] = [value - row[place] * other for value, other in zip(row[place:], pivot[place:], strict=True)]
+                    row[place:] = [
+                        value - row[place] * other for value, other in zip(row[place:], pivot[place:], strict=True)
+                    ]
         return [row[-1] for row in rows], determinant
 
     def _is_zero(self, node: Node) -> bool:
