@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis.mechanism_trace import joint_columns
 from crankwork.analysis.operating_state import operating_state
@@ -37,7 +38,18 @@ from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.routes import torque_by_energy
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import Component, Piecewise, ProcedureValue, Root, TracedValue, absent, given, total
+from crankwork.formula.traced_value import (
+    Component,
+    Piecewise,
+    ProcedureValue,
+    Root,
+    TracedValue,
+    absent,
+    breakpoints_of,
+    given,
+    reached,
+    total,
+)
 from crankwork.kinematics import kinematic_coefficients as rates
 from crankwork.kinematics.chain_solver import ChainPath
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -53,7 +65,7 @@ _CHANGES = ("margin", "ideal", "torque", "another")
 _STEP = 1.0
 # tolerance of the angle of a change of sign [deg]
 _PLACED = 1e-10
-_HALVINGS = 60
+_SECTIONS = 32
 
 
 @dataclass(frozen=True)
@@ -106,7 +118,7 @@ class FrictionRegimes:
     """Forces with friction over all crank angles: where they have corners, lock, or hold the load."""
 
     def __init__(self, balance: FrictionEquilibrium, span: tuple[float, float]) -> None:
-        self._balance, self._span = balance, span
+        self.balance, self._span = balance, span
         start, end = span
         edges = [end for steps in balance.senses.values() for end in steps.ends]
         count = max(int(np.ceil((end - start) / _STEP)), 1)
@@ -123,10 +135,12 @@ class FrictionRegimes:
         is_known = bool(np.all(np.isin(self.forces.status, (CONVERGED, NO_POSITION))))
         self.is_free = is_known and not np.any(rows["margin"] < 0)
         self._changes = sorted({item for key in _CHANGES for item in places.get(key, ())})
-        self.knots = tuple(sorted({item for place in places.values() for item in place} | set(edges)))
+        # where a guide is pressed by another side, and what else the forces jump at
+        self.corners = {key: tuple(sorted(ends)) for key, ends in places.items() if key not in _CHANGES}
+        self.jumps = tuple(item for key in ("margin", "another") for item in places.get(key, ()))
 
     def _rows(self, degrees: Array) -> dict[str, Array]:
-        return self._rows_of(self._balance.at(degrees))
+        return self._rows_of(self.balance.at(degrees))
 
     @staticmethod
     def _single(forces: FrictionForces) -> Array:
@@ -138,13 +152,11 @@ class FrictionRegimes:
         locked = forces.status == SELF_LOCKING
         rows = {"margin": np.where(locked, -1.0, forces.margin), "ideal": forces.ideal_torque,
                 "torque": np.asarray(forces.joint_forces.balancing_torque)}  # fmt: skip
-        for law in self._balance.senses:
+        for law in self.balance.senses:
             if isinstance(law, GuideFriction):
                 guide = forces.joint_forces.guides[law.slider]
-                rows[f"{law.slider}.normal"] = np.asarray(guide.normal)
-                if law.length:
-                    tilting = law.tilting(np.asarray(guide.normal), np.asarray(guide.moment))
-                    rows |= {f"{law.slider}.{sign}": guide.normal + sign * tilting for sign in (1, -1)}
+                tilting = law.tilting(np.asarray(guide.normal), np.asarray(guide.moment))
+                rows |= {f"{law.slider}.{sign}": guide.normal + sign * tilting for sign in law.sides}
         return rows
 
     def _with_vertices(self, degrees: Array, rows: dict[str, Array]) -> tuple[Array, dict[str, Array]]:
@@ -179,13 +191,13 @@ class FrictionRegimes:
             number, index = np.array(brackets).T
             values = np.array([*rows.values()])
 
-            def value_at(places: Array, active: Truth) -> Array:
-                by_key, row = self._rows(places), number[active]
+            def value_at(places: Array, index: NDArray[np.intp]) -> Array:
+                by_key, row = self._rows(places), number[index]
                 if self._is_double:
                     mask = row == keys.index("another")
                     by_key["another"] = np.ones(places.size)
                     if mask.any():
-                        by_key["another"][mask] = self._single(self._balance.at(places[mask], thorough=True))
+                        by_key["another"][mask] = self._single(self.balance.at(places[mask], thorough=True))
                 return np.asarray(np.array([by_key[key] for key in keys])[row, np.arange(places.size)])
 
             keys = [*rows]
@@ -199,7 +211,7 @@ class FrictionRegimes:
     def drives(self) -> StepFunction:
         """Driving side: 1 the crank, -1 the load, 0 where neither moves the other."""
         edges, middles = self._stretches()
-        result, torques = self._balance.at(middles), self.forces.ideal_torque
+        result, torques = self.balance.at(middles), self.forces.ideal_torque
         ideal, actual = result.ideal_torque, np.asarray(result.joint_forces.balancing_torque)
         least = 1e-12 * np.max(np.abs(torques), initial=0.0, where=np.isfinite(torques))
         both = np.where(np.minimum(ideal, actual) > least, 1.0, np.where(np.maximum(ideal, actual) < -least, -1.0, 0.0))
@@ -217,7 +229,7 @@ class FrictionRegimes:
         `codes`: of the notices to yield.
         """
         edges, middles = self._stretches()
-        result = self._balance.at(middles, thorough=self._is_double)
+        result = self.balance.at(middles, thorough=self._is_double)
         period = 0.0
         if solved.machine.mechanism.driver.law is not None:
             period = solved.machine.mechanism.driver.law.period / 360.0
@@ -240,42 +252,34 @@ class FrictionRegimes:
             (edges[first], edges[min(after, edges.size - 1)]) for first, after in zip(*[iter(change)] * 2, strict=True)
         ]
         start, end = self._span
-        if len(runs) > 1 and (runs[0][0], runs[-1][1]) == (start, end) and end - start >= self._balance.cycle:
+        if len(runs) > 1 and (runs[0][0], runs[-1][1]) == (start, end) and end - start >= self.balance.cycle:
             runs = [*runs[1:-1], (runs[-1][0], runs[0][1])]
         suffix, scale = ("_time", period) if period else ("", 1.0)
         for low, high in runs:
             yield Notice(f"{code}{suffix}", {"from": float(low * scale), "to": float(high * scale)})
 
 
-def _between(value_at: Callable[[Array, Truth], Array], low: Array, high: Array, ends: tuple[Array, Array]) -> Array:
-    """Return where functions change their sign between two places each: Ridders' method, halving where they jump.
+def _between(
+    value_at: Callable[[Array, NDArray[np.intp]], Array], low: Array, high: Array, ends: tuple[Array, Array]
+) -> Array:
+    """Return where functions change their sign between two places each, also where they jump.
 
-    `value_at` gives the functions in a mask at places. NaN counts as a sign of its own. `ends`: their values at both
-    places.
+    `value_at` gives those of some brackets at places. NaN counts as a sign of its own. `ends`: values at both places.
     """
-    (low, high), (first, last) = (low.copy(), high.copy()), (end.copy() for end in ends)
-    for _ in range(_HALVINGS):
-        active = high - low > _PLACED
-        if not active.any():
-            break
-        a, b, at_a, at_b = low[active], high[active], first[active], last[active]
-        middle = (a + b) / 2
-        value = value_at(middle, active)
-        with np.errstate(all="ignore"):
-            root = np.sqrt(value**2 - at_a * at_b)
-            nearer = middle + (middle - a) * np.sign(at_a - at_b) * value / root
-        # a step beyond the root narrows the bracket from the other side, too
-        beyond = np.clip(nearer + np.sign(nearer - middle) * _PLACED / 4, a, b)
-        for candidate in (middle, nearer, beyond):
-            place = np.where(np.isfinite(candidate), np.clip(candidate, a, b), middle)
-            new_value = value if candidate is middle else value_at(place, active)
-            is_inside = (place >= a) & (place <= b)
-            same = is_inside & (_sign(new_value) == _sign(at_a))
-            other = is_inside & ~same
-            a, at_a = np.where(same, place, a), np.where(same, new_value, at_a)
-            b, at_b = np.where(other, place, b), np.where(other, new_value, at_b)
-        low[active], high[active], first[active], last[active] = a, b, at_a, at_b
-    return np.asarray((low + high) / 2)
+    (low, high), values = (low.copy(), high.copy()), np.array(ends)
+    shares, brackets = np.linspace(0.0, 1.0, _SECTIONS + 1)[1:-1], np.arange(low.size)
+    while np.any(high - low > _PLACED):
+        places = low[:, None] + (high - low)[:, None] * shares
+        inside = value_at(places.ravel(), np.repeat(brackets, shares.size)).reshape(places.shape)
+        # the first place that has not the sign of the lower end
+        is_other = np.concatenate([_sign(inside) != _sign(values[0])[:, None], np.ones((low.size, 1), bool)], axis=1)
+        after = np.argmax(is_other, axis=1)
+        places, inside = np.column_stack([low, places, high]), np.column_stack([values[0], inside, values[1]])
+        low, high = (places[brackets, after + side] for side in (0, 1))
+        values = np.array([inside[brackets, after + side] for side in (0, 1)])
+    with np.errstate(all="ignore"):
+        share = values[0] / (values[0] - values[1])
+    return np.asarray(low + (high - low) * np.where(np.isfinite(share), share, 0.5))
 
 
 def _sign(values: Array) -> Array:
@@ -347,7 +351,8 @@ def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mappin
     senses = _senses(motion, velocities)
     balance = FrictionEquilibrium(solved, senses)
     regimes = FrictionRegimes(balance, span)
-    root, friction, forces = _with_friction(places, velocities, balance, regimes.knots, running)
+    traced = {place.law: _sense(senses[place.law], velocities[place.law], place.name) for place in places}
+    root, friction, forces = _with_friction(places, velocities, traced, regimes, running)
     columns = {value.key: value for value in friction.values()}
     powers = [_power(place, friction[place.law], velocities[place.law]) for place in places]
     columns |= {power.key: power for power in powers} | {"friction_power": total("friction_power", powers)}
@@ -363,7 +368,7 @@ def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mappin
         if solved.machine.mechanism.bodies:
             standing = FrictionRegimes(still, span)
             alone = replace(running, mechanism=replace(running.mechanism, bodies=()))
-            static = _with_friction(places, velocities, still, standing.knots, alone)[2].balancing_torque
+            static = _with_friction(places, velocities, traced, standing, alone)[2].balancing_torque
             is_free &= standing.is_free
         static = static.named("static_torque_with_friction")
         columns |= {static.key: static} | _efficiency(trace["static_torque"], static, standing)
@@ -423,7 +428,9 @@ def _senses(motion: Motion, velocities: Mapping[Friction, TracedValue]) -> dict[
     for index, velocity in enumerate(velocities.values()):
         ends, values = [end], [-float(np.sign(velocity.node.value or 0.0))]
         if velocity.varies:
-            edges = np.unique([float(over.edges[0]), *over.breaks, *over.crossings(str(index)), end])
+            # at the start and the end of a cycle rounding decides on which side a dead centre is
+            crossings = [item for item in over.crossings(str(index)) if np.abs(over.breaks - item).min() > _PLACED * 10]
+            edges = np.unique([float(over.edges[0]), *over.breaks, *crossings, end])
             inside = over.at(str(index), (edges[1:] + edges[:-1]) / 2)
             largest = max(size[other] for other, kind in enumerate(kinds) if kind == kinds[index])
             signs = np.where(np.abs(inside) > _REST * largest, -np.sign(inside), 0.0)
@@ -436,8 +443,8 @@ def _senses(motion: Motion, velocities: Mapping[Friction, TracedValue]) -> dict[
 def _with_friction(
     places: Sequence[_Place],
     velocities: Mapping[Friction, TracedValue],
-    balance: FrictionEquilibrium,
-    knots: tuple[float, ...],
+    senses: Mapping[Friction, TracedValue],
+    regimes: FrictionRegimes,
     running: OperatingState,
 ) -> tuple[Root, dict[Friction, TracedValue], JointForces]:
     """Return the pressing forces of the joints, the friction of each, and the joint forces with it.
@@ -445,27 +452,49 @@ def _with_friction(
     The pressing forces of all joints are found together; the difference of each from the force in its joint is the
     residual of an equation.
     """
-    root = Root(balance)
-    root.knots = knots
+    root = Root(regimes.balance)
     friction, loads, pressing = dict[Friction, TracedValue](), AppliedLoads(), dict[Friction, TracedValue]()
     for index, place in enumerate(places):
-        sense = _sense(balance.senses[place.law], velocities[place.law], place.name)
         kind = "joint_force_with_friction" if isinstance(place.joint, Pin) else "pressing_force"
         pressing[place.law] = TracedValue(Component(root, index), f"{kind}.{place.name}")
-        value = friction[place.law] = _law(place, sense, pressing[place.law], velocities[place.law])
+        value = friction[place.law] = _law(place, senses[place.law], pressing[place.law], velocities[place.law])
         loads = loads.also(_on_links(running, place, value))
     forces = joint_forces(replace(running, loads=running.loads.also(loads)))
     root.residuals = tuple(_missing(place, pressing[place.law], forces) for place in places)
+    root.sides = tuple(_sides(places, senses.values(), forces, regimes.corners))
+    corners = (item for ends in regimes.corners.values() for item in ends)
+    root.knots = (*regimes.jumps, *corners, *(item for steps in regimes.balance.senses.values() for item in steps.ends))
     return root, friction, forces
+
+
+def _sides(
+    places: Sequence[_Place],
+    senses: Iterable[TracedValue],
+    forces: JointForces,
+    corners: Mapping[str, tuple[float, ...]],
+) -> Iterator[tuple[TracedValue, tuple[TracedValue, ...]]]:
+    """Yield what presses at each end of a sliding piece, with where it goes to the other side of the guide."""
+    pieces = [sense.node for sense in senses if isinstance(sense.node, Piecewise)]
+    jumps = [place for node in pieces for place in node.places if isinstance(place, TracedValue)]
+    for place in places:
+        if isinstance(place.law, GuideFriction):
+            normal, tilting = forces.guides[place.joint.name].normal, _tilting(place, place.law, forces)
+            for sign in place.law.sides:
+                column = normal + tilting if sign > 0 else normal - tilting
+                ends = corners.get(f"{place.joint.name}.{sign}", ())
+                # it may jump to the other side where friction changes its direction
+                close = ([jump for jump in jumps if abs(jump.value - end) < _CLOSE] for end in ends)
+                yield column, tuple((*at, reached(column, end))[0] for at, end in zip(close, ends, strict=True))
 
 
 def _sense(steps: StepFunction, velocity: TracedValue, name: str) -> TracedValue:
     values = tuple(
         TracedValue(ProcedureValue(value, "against", (velocity,)), "friction_sense") for value in steps.values
     )
-    return (values[0] if len(values) == 1 else TracedValue(Piecewise(steps.ends, values))).named(
-        f"friction_sense.{name}"
-    )
+    # a law of the driver may jump where it does not pass zero
+    fixed = {*breakpoints_of((velocity,), steps.ends[-1]).tolist(), steps.ends[-1]}
+    ends = [end if end in fixed else reached(velocity, end) for end in steps.ends]
+    return (values[0] if len(values) == 1 else TracedValue(Piecewise(ends, values))).named(f"friction_sense.{name}")
 
 
 def _stated(place: _Place, name: str) -> TracedValue:
@@ -520,15 +549,17 @@ def _missing(place: _Place, pressing: TracedValue, forces: JointForces) -> Trace
     if isinstance(place.joint, Pin):
         force: TracedValue = forces.pins[name].resultant
         return pressing - force.named(f"joint_force.{place.name}")
-    guide = forces.guides[name]
-    tilting: TracedValue = absent("tilting_force")
-    if isinstance(law, GuideFriction) and law.length:
-        length = _stated(place, "length")
-        tilting = tilting_force(guide.moment, guide.normal, _stated(place, "middle_x"), length).named(
-            f"tilting_force.{place.name}"
-        )
-    pressed: TracedValue = pressing_force(guide.normal, tilting)
+    pressed: TracedValue = pressing_force(forces.guides[name].normal, _tilting(place, law, forces))
     return pressing - pressed.named(f"pressing_force.{place.name}")
+
+
+def _tilting(place: _Place, law: Friction, forces: JointForces) -> TracedValue:
+    """Return the difference of the forces that press at both ends of a sliding piece."""
+    if not isinstance(law, GuideFriction) or not law.length:
+        return absent("tilting_force")
+    guide, length = forces.guides[place.joint.name], _stated(place, "length")
+    tilting: TracedValue = tilting_force(guide.moment, guide.normal, _stated(place, "middle_x"), length)
+    return tilting.named(f"tilting_force.{place.name}")
 
 
 def _power(place: _Place, friction: TracedValue, velocity: TracedValue) -> TracedValue:

@@ -67,6 +67,11 @@ class GuideFriction:
         """Where the middle is to the left of the guide. [m]"""
         return self.middle[1]
 
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """Signs of the tilting force at the ends that are pressed: both, or one where it does not count."""
+        return (1, -1) if self.length else (1,)
+
     def tilting(self, normal: Array, moment: Array) -> Array:
         """Return the difference of the forces that press at both ends. [N]"""
         if not self.length:

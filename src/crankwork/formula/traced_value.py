@@ -197,16 +197,18 @@ class Root(Node):
     """Unknowns at which residuals vanish, on one circuit: `solve` gives them and their derivatives, shape (k, n).
 
     It takes the crank angles, or the columns that the unknowns follow `of`. `residuals` are what must vanish; they
-    are made of components of the root; `knots` are crank angles where unknowns are not smooth. [deg]
+    are made of components of the root; `knots` are crank angles where unknowns are not smooth [deg]. `sides` are
+    columns where whose signs change residuals have corners, each with the crank angles of that.
     """
 
-    __slots__ = ("knots", "residuals", "solve")
+    __slots__ = ("knots", "residuals", "sides", "solve")
 
     def __init__(self, solve: Callable[[Any], Array], operands: Iterable[TracedValue] = ()) -> None:
         super().__init__(None, operands)
         self.solve: Callable[[Any], Array] = solve
         self.residuals: tuple[TracedValue, ...] = ()
         self.knots: tuple[float, ...] = ()
+        self.sides: tuple[tuple[TracedValue, tuple[TracedValue, ...]], ...] = ()
 
 
 class Component(Node):
@@ -500,7 +502,8 @@ def _breaks(knowns: tuple[TracedValue, ...], memo: dict[frozenset[Node], set[flo
         if isinstance(node, Delayed):
             late.setdefault((node.by, node.cycle), {})[node.of.node] = node.of
             return []
-        return [operand for operand in node.operands if operand.node.value is None]
+        operands = (*node.operands, *node.residuals) if isinstance(node, Root) else node.operands
+        return [operand for operand in operands if operand.node.value is None]
 
     nodes = [known.node for known in in_order((known for known in knowns if known.varies), into=undelayed)]
     breaks = {angle for node in nodes if isinstance(node, Piecewise | Tabulated | Root) for angle in node.knots}

@@ -21,6 +21,7 @@ from crankwork.formula.traced_value import (
     FunctionValue,
     Node,
     ProcedureValue,
+    Root,
     TracedValue,
     breakpoints_of,
     in_order,
@@ -48,11 +49,15 @@ Array = NDArray[np.float64]
 # widths of panels that are tried, and the truncation error at which a column is accepted
 _WIDTHS = (30.0, 15.0, 7.5, 3.75)
 CONVERGED = 1e-12
+# how often panels are divided where friction forces are not followed, and into how many
+_DIVISIONS, _PARTS = 8, 4
 # limit of the breakpoints of a grid, with those of delayed columns
 _MAX_BREAKPOINTS = 400
 _POLYNOMIALS = lobatto(16)
 # designs per batch of values that do not depend on the crank angle
 _BATCH_SIZE = 2048
+# first step of the secant method, the step after which it ends, and the largest last step [deg]
+_FIRST_STEP, _PLACED, _NEARLY_PLACED, _MAX_SECANTS = 1e-3, 1e-11, 1e-8, 20
 
 
 class BatchResult(NamedTuple):
@@ -91,39 +96,36 @@ class Kernel:
     ) -> None:
         designs = DesignTraces(traces, fields, keys)
         self.fields = fields.shape[1]
-        wanted = {key: traces[0][key] for key in keys}
-        traced = list(in_order(wanted.values(), into=_dependencies))
+        self._wanted = {key: traces[0][key] for key in keys}
+        traced = list(in_order(self._wanted.values(), into=_dependencies))
         if steps and any(isinstance(operand.node, FunctionValue) for operand in traced):
             raise NotCompiledError("procedure", next(iter(keys)))
         delays = sorted({operand.node.by for operand in traced if isinstance(operand.node, Delayed)})
         breaks = [breakpoints_of(_reduced([trace[key] for key in keys]), cycle, start) for trace in traces]
-        is_compiled = compiles() and not is_for_few
-        # what the ends of laws follow from, calculated by a kernel of its own: further inputs of this one
+        # thousands of operations of a root take a minute to compile
+        is_compiled = compiles() and not is_for_few and not designs.roots
+        # corners of friction forces, and what the ends of laws follow from, calculated by a kernel of its own: further
+        # inputs of this one
+        corners = [] if steps else _corners(traced)
+        self._inputs_of = {id(place.node): index for index, place in enumerate(corners, start=self.fields)}
+        self._corners: Crossings | None = None
         self._before: Kernel | None = None
-        beforehand = dict[int, int]()
+        before = partial(Kernel, angles_at=angles_at, cycle=cycle, start=start, is_for_few=is_for_few)
         widths = [width for width in _WIDTHS if width * parts <= cycle] or _WIDTHS[-1:]
-        for width in (cycle,) if steps else widths:
-            grid, edges = _grid(breaks, delays, width, steps)
+        # forces that nearly vanish turn within thousandths of a degree: after the first width panels are divided
+        is_divided = bool(designs.roots) and not delays
+        divided: Edges | None = None
+        for width in (cycle,) if steps else [widths[0]] * _DIVISIONS if is_divided else widths:
+            grid, edges = _grid(breaks, delays, width, steps) if divided is None else (_grid_between(divided), divided)
             grid = grid if rows is None else grid.with_rows(rows)
-            is_shifted = any(grid.earlier(delay) is None for delay in delays)
-            lower = partial(Lowering, designs, angles_at, grid.degrees, is_shifted=is_shifted)
-            lowering = lower(beforehand=beforehand)
-            outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
-            if not steps and not beforehand and (reduced := lowering.reduced_before_ends()):
-                # panels are laid before any value is reduced, and an end may follow from an extreme
-                beforehand = {node: index for index, node in enumerate(reduced, start=self.fields)}
-                self._before = Kernel(
-                    *_traces_of(designs, reduced.values()), angles_at, cycle=cycle, start=start, is_for_few=is_for_few
-                )
-                lowering = lower(beforehand=beforehand)
-                outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
+            if divided is None:
+                is_shifted = any(grid.earlier(delay) is None for delay in delays)
+                lower = partial(Lowering, designs, angles_at, grid.degrees, is_shifted=is_shifted, is_exact=not steps)
+                lowering, outputs = self._lowered(lower, corners, designs, grid, None if steps else before)
             if lowering.moving and steps:
                 grid = uniform_grid(lowering.zones(breaks[0]), steps)
             elif lowering.moving and edges is not None:
-                is_reduced = any(end.level > 0 for end, _ in lowering.moving)
-                edges = None if is_reduced else edges.following(lowering.moving)
-                if edges is None:
-                    raise NotCompiledError("ends", keys[0])
+                edges = _following(edges, lowering, keys[0])
                 grid = grid._replace(moves=edges.moves)
             self._edges = edges if lowering.moving else None
             if parts:
@@ -133,7 +135,7 @@ class Kernel:
             ends = [end for end, _ in lowering.moving]
             guarded = outputs | ({} if guard is None else {"": guard})
             law_ends = () if steps else ends
-            inputs = self.fields + len(beforehand)
+            inputs = self.fields + len(self._inputs_of)
             self.plan = Schedule(guarded, grid, inputs, angles_at, law_ends, shares=is_compiled)
             self._carry_out(grid, is_compiled=is_compiled, steps=steps, parts=parts)
             self.keys = tuple(outputs)
@@ -144,7 +146,34 @@ class Kernel:
             error = self(fields.T).truncation_error
             if float(np.max(error, where=np.isfinite(error), initial=0.0)) <= enough:
                 break
+            if is_divided and edges is not None:
+                divided = edges.divided(self._coarse_panels(fields.T[:, np.isfinite(error)], enough), _PARTS)
         self._module = compiled(self.source.text) if is_compiled else None
+
+    def _lowered(
+        self,
+        lower: Callable[..., Lowering],
+        corners: Sequence[TracedValue],
+        designs: DesignTraces,
+        grid: Grid,
+        before: Callable[..., Kernel] | None,
+    ) -> tuple[Lowering, dict[str, KernelValue]]:
+        """Return a lowering and the outputs, after calculations of what must be known before; `before`: makes them."""
+        reduced: dict[int, TracedValue] = {}
+        while True:
+            lowering = lower(beforehand=self._inputs_of)
+            outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in self._wanted.items()}
+            if before is not None and self._before is None and not reduced:
+                # panels are laid before any value is reduced, and an end may follow from an extreme
+                reduced = lowering.reduced_before_ends()
+            if not reduced or self._before is not None:
+                break
+            first = self.fields + len(corners)
+            self._inputs_of |= {node: index for index, node in enumerate(reduced, start=first)}
+            self._before = before(*_traces_of(designs, reduced.values())) if before else None
+        if corners and self._corners is None:
+            self._corners = Crossings(designs, corners, lower(beforehand=self._inputs_of), grid, len(self._inputs_of))
+        return lowering, outputs
 
     def _carry_out(self, grid: Grid, *, is_compiled: bool, steps: int | None, parts: int) -> None:
         """Write the schedule out, and set what carries it out with arrays."""
@@ -182,20 +211,20 @@ class Kernel:
 
     def _inputs(self, designs: Array) -> tuple[Array, Array]:
         """Return fields of designs and what is calculated beforehand, shape (inputs, n), and its truncation error."""
-        if self._before is None:
+        if self._before is None and self._corners is None:
             return designs, np.zeros(designs.shape[1])
-        before = self._before(designs)
-        return np.concatenate([designs, before.values]), before.truncation_error
+        empty = BatchResult(np.empty((0, designs.shape[1])), np.zeros(designs.shape[1]))
+        before = empty if self._before is None else self._before(designs)
+        corners = empty if self._corners is None else self._corners(designs, before.values)
+        error = np.maximum(before.truncation_error, corners.truncation_error)
+        return np.concatenate([designs, corners.values, before.values]), error
 
     def slopes(self, design: Array) -> tuple[Array, Array]:
         """Return single values of a design, shape (keys,), and their derivatives by its fields, (keys, fields). [SI]"""
-        if any(value.detail.startswith("procedure") for level in self.plan.levels for value in level.reductions):
+        procedures = (value.detail.startswith("procedure") for level in self.plan.levels for value in level.reductions)
+        if self._corners is not None or any(procedures):
             raise NotCompiledError("procedure", self.keys[0])
-        store, columns = self._stores(1)
-        inputs, _ = self._inputs(design[:, None])
-        store[: len(inputs)] = inputs
-        self._arrays.designs(0, store)
-        blocks = self._levels(store, columns, 1)[1]
+        store, blocks, _ = self._blocks(design[:, None])
         edges = np.full(self.plan.grid.edges.size, -1) if self._edges is None else self._edges.ends
         adjoints = [None if block is None else ReductionAdjoint(block, self.plan.grid, edges) for block in blocks]
         values = [self._of_output(value, store[:, 0]) for key, value in self.plan.outputs.items() if key]
@@ -204,14 +233,22 @@ class Kernel:
             slopes = slopes[:, : self.fields] + slopes[:, self.fields :] @ self._before.slopes(design)[1]
         return np.array(values), slopes
 
-    def truncation_error_of(self, designs: Array) -> Array:
-        """Return the truncation error of the columns that each single value depends on, shape (keys, n)."""
-        count = designs.shape[1]
-        store, columns = self._stores(count)
-        inputs, before = self._inputs(designs)
+    def _blocks(self, designs: Array) -> tuple[Array, list[Block | None], Array]:
+        """Return the store of a few designs, the reductions of the levels, and the error of what is known before."""
+        store, columns = self._stores(designs.shape[1])
+        inputs, error = self._inputs(designs)
         store[: len(inputs)] = inputs
         self._arrays.designs(0, store)
-        blocks = self._levels(store, columns, count)[1]
+        return store, self._levels(store, columns, designs.shape[1])[1], error
+
+    def _coarse_panels(self, designs: Array, enough: float) -> NDArray[np.bool_]:
+        """Return in which panels a column of one of these designs has a larger truncation error."""
+        blocks = self._blocks(designs)[1]
+        return np.asarray(np.any([block.coarse_panels(enough) for block in blocks if block is not None], axis=0))
+
+    def truncation_error_of(self, designs: Array) -> Array:
+        """Return the truncation error of the columns that each single value depends on, shape (keys, n)."""
+        _, blocks, before = self._blocks(designs)
         errors = dict[int, Array]()
         for value in values_in_order(self.plan.outputs.values()):
             error = np.max([before, *(errors[operand.index] for operand in value.operands)], axis=0)
@@ -299,6 +336,62 @@ class Kernel:
         return Script(self.source, _POLYNOMIALS)
 
 
+class Crossings:
+    """Crank angles at which columns pass zero, of many designs at once by the secant method. [deg]
+
+    `lowering`: of a calculation in which these angles are the inputs after the fields; `more`: number of such inputs
+    and further ones.
+    """
+
+    def __init__(
+        self, designs: DesignTraces, places: Sequence[TracedValue], lowering: Lowering, grid: Grid, more: int
+    ) -> None:
+        self._fields = designs.fields
+        self._stated = np.array([[node.value for node in designs.counterparts(place.node)] for place in places]).T
+        first = self._fields.shape[1]
+        columns = {str(k): lowering.at_input(place, first + k) for k, place in enumerate(places)}
+        self._plan = Schedule(columns, grid, first + more, lowering.angles_at, shares=False)
+        self._source = Source(self._plan, is_reduced=False)
+        self._arrays = Arrays(self._source, np.zeros((0, 0), dtype=np.intp))
+
+    def __call__(self, designs: Array, more: Array) -> BatchResult:
+        """Return the angles of designs, shape (places, n), with an infinite error where one is not found."""
+        store = np.empty((len(self._source.rows.of), designs.shape[1]))
+        count, angles = len(designs), self._start(designs)
+        store[: len(designs)], store[count + len(angles) : count + len(angles) + len(more)] = designs, more
+        step, values = np.full(angles.shape, _FIRST_STEP), self._values(store, angles)
+        for _ in range(_MAX_SECANTS):
+            angles = angles + step
+            new = self._values(store, angles)
+            with np.errstate(all="ignore"):
+                step = np.where(new == values, 0.0, new * step / (values - new))
+            values = new
+            if not np.any(np.abs(step) > _PLACED):
+                break
+        is_found = np.all(np.abs(step) <= _NEARLY_PLACED, axis=0)
+        return BatchResult(np.where(is_found, angles, self._stated[0][:, None]), np.where(is_found, 0.0, np.inf))
+
+    def _start(self, designs: Array) -> Array:
+        """Return angles by straight lines through those of the designs compared."""
+        rises, widths = (values[2:][::2][: len(designs)] - values[1:][::2][: len(designs)] for values in
+                         (self._stated, self._fields))  # fmt: skip
+        slopes = rises.T / np.diag(widths)
+        return np.asarray(self._stated[0][:, None] + slopes @ (designs - self._fields[0][:, None]))
+
+    def _values(self, store: Array, angles: Array) -> Array:
+        first = self._fields.shape[1]
+        store[first : first + len(angles)] = angles
+        self._arrays.designs(0, store)
+        return store[[self._source.rows(self._source.place(value)) for value in self._plan.outputs.values()]]
+
+
+def _corners(traced: Iterable[TracedValue]) -> list[TracedValue]:
+    """Return the places at which unknowns that values depend on have corners."""
+    roots = [known.node for known in traced if isinstance(known.node, Root)]
+    places = [(column, place) for root in roots for column, ends in root.sides for place in ends]
+    return [place for column, place in places if place.node.operands[0] is column]
+
+
 def _traces_of(
     designs: DesignTraces, wanted: Iterable[TracedValue]
 ) -> tuple[list[dict[str, TracedValue]], Array, list[str]]:
@@ -340,9 +433,21 @@ def _grid(
     if steps:
         return uniform_grid(breaks[0], steps), None
     all_breaks = [with_delayed_breakpoints(of_design, delays, _MAX_BREAKPOINTS) for of_design in breaks]
-    edges, parts = subdivide(all_breaks[0], width)
-    grid = lobatto_grid(edges, np.zeros(edges.size - 1, dtype=bool), _POLYNOMIALS)
-    return grid, Edges(all_breaks, parts)
+    edges = subdivide(all_breaks, width)
+    return _grid_between(edges), edges
+
+
+def _following(edges: Edges, lowering: Lowering, key: str) -> Edges:
+    """Return edges that follow the ends of laws."""
+    is_reduced = any(end.level > 0 for end, _ in lowering.moving)
+    following = None if is_reduced else edges.following(lowering.moving)
+    if following is None:
+        raise NotCompiledError("ends", key)
+    return following
+
+
+def _grid_between(edges: Edges) -> Grid:
+    return lobatto_grid(edges.in_stated, np.zeros(edges.share.size, dtype=bool), _POLYNOMIALS)
 
 
 def compiles() -> bool:
@@ -397,7 +502,7 @@ class Arrays:
         with np.errstate(all="ignore"):
             for loop in level.loops:
                 results: dict[int, Any] = {}
-                for value in loop.values:
+                for value, unused in zip(loop.values, loop.unused, strict=True):
                     if value.kind == "delayed":
                         row, delay = source.columns(value.operands[0].index), source.delays(value.detail)
                         results[value.index] = columns[row, self._places[delay, loop.angles]]
@@ -405,6 +510,8 @@ class Arrays:
                         results[value.index] = columns[source.columns(value.detail.index), loop.angles]
                     else:
                         results[value.index] = self._result(value, results, store, loop.angles)
+                    for last in unused:
+                        del results[last]
                 for column, value in zip(level.columns, loop.columns, strict=True):
                     columns[source.columns(column.index), loop.angles] = self._read(value, results, store, loop.angles)
 

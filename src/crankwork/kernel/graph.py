@@ -53,12 +53,12 @@ class KernelValue(Operators["KernelValue"]):
         self.graph, self.kind, self.operands, self.detail = graph, kind, operands, detail
         self.index = len(graph.values)
         # a column at another angle is read from its store, which each design has
-        self.depends_on_design: bool = kind in ("input", "delayed", "moved") or any(
+        self.depends_on_design: bool = kind in ("input", "unknown", "delayed", "moved") or any(
             operand.depends_on_design for operand in operands
         )
         if kind == "pieces":
             self.depends_on_design |= any(end.value is not None for end in detail[0])
-        self.depends_on_angle: bool = kind in ("angle", "pieces", "moved") or (
+        self.depends_on_angle: bool = kind in ("angle", "unknown", "pieces", "moved") or (
             kind != "reduction" and any(operand.depends_on_angle for operand in operands)
         )
         waits: int = kind in ("reduction", "delayed")
@@ -115,6 +115,10 @@ class KernelGraph:
         """Return the value of a Python function at the crank angle plus a shift. [deg]"""
         self.functions.setdefault(id(function), function)
         return self._node("angle", (), ("reading", id(function), shift))
+
+    def unknown(self, *detail: Any) -> KernelValue:  # noqa: ANN401 - what tells it from others
+        """Return a place for a value that is put in later."""
+        return self._node("unknown", (), detail)
 
     def moved(self, value: KernelValue) -> KernelValue:
         """Return a function of the crank angle at angles that differ between designs: read from its store."""
@@ -328,11 +332,14 @@ PARTIALS: dict[str, Callable[..., tuple[Any, ...]]] = {
 }
 
 
-class ByAngle:
-    """Derivatives of the values of a graph by the crank angle, created once each. [1/rad]"""
+_TINY = 1e-290
 
-    def __init__(self, graph: KernelGraph) -> None:
-        self._graph = graph
+
+class ByAngle:
+    """Derivatives of the values of a graph by the crank angle [1/rad], or by an unknown; created once each."""
+
+    def __init__(self, graph: KernelGraph, unknown: KernelValue | None = None) -> None:
+        self._graph, self._unknown = graph, unknown
         self._derivatives: dict[int, KernelValue] = {}
 
     def of(self, value: KernelValue) -> KernelValue:
@@ -345,10 +352,12 @@ class ByAngle:
     def _derivative(self, value: KernelValue) -> KernelValue:
         graph, changes = self._graph, [self._derivatives[operand.index] for operand in value.operands]
         match value.kind:
-            case "constant" | "input" | "reduction":
+            case "unknown" if value is self._unknown:
+                return graph.constant(1.0)
+            case "constant" | "input" | "reduction" | "unknown":
                 return graph.constant(0.0)
             case "angle":
-                return self._of_angle(*value.detail)
+                return graph.constant(0.0) if self._unknown else self._of_angle(*value.detail)
             case "pieces":
                 ends, shift = value.detail
                 return graph.pieces(ends, tuple(changes), shift)
@@ -359,6 +368,9 @@ class ByAngle:
         result = graph.constant(0.0)
         if all(change.is_constant and not number(change) for change in changes):
             return result
+        if value.kind == "sqrt":
+            # a force of zero has no direction
+            return graph.apply("choose", value - _TINY, changes[0] * 0.5 / value, 0.0)
         for change, partial in zip(changes, PARTIALS[value.kind](value, *value.operands), strict=True):
             result = result + change * partial
         return result

@@ -112,12 +112,14 @@ def uniform_grid(breaks: Array, steps: int) -> Grid:
 class Edges(NamedTuple):
     """Edges of panels, some of which depend on the design. [deg]
 
-    `breaks`: breakpoints of the stated design and of others; `parts`: panels of each interval; `followed_end`: index of
-    the end of a law that each breakpoint follows, -1 if it is fixed; `stated`: those ends in the stated design.
+    `breaks`: breakpoints of the stated design and of others; `interval`: between breakpoints in which each panel lies;
+    `share`: of the interval that lies before it; `followed_end`: index of the end of a law that each breakpoint
+    follows, -1 if it is fixed; `stated`: those ends in the stated design.
     """
 
     breaks: Sequence[Array]
-    parts: NDArray[np.intp]
+    interval: NDArray[np.intp]
+    share: Array
     followed_end: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
     stated: Array = np.zeros(0)
 
@@ -137,17 +139,33 @@ class Edges(NamedTuple):
         followed = np.argmax(moved, axis=0) - 1
         return self._replace(followed_end=followed, stated=np.array([angles[0] for _, angles in ends]))
 
+    def divided(self, coarse: NDArray[np.bool_], count: int) -> Edges:
+        """Return edges with each coarse panel and its neighbours, where designs between are coarse, divided into equal ones."""
+        coarse = coarse | np.append(coarse[1:], False) | np.append(False, coarse[:-1])
+        width = np.append(self.share[1:], 0.0)
+        width = np.where(width > 0, width, 1.0) - self.share
+        counts = np.where(coarse, count, 1)
+        within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        share = np.repeat(self.share, counts) + within * np.repeat(width / counts, counts)
+        return self._replace(interval=np.repeat(self.interval, counts), share=share)
+
+    @property
+    def in_stated(self) -> Array:
+        """Edges of the stated design."""
+        breaks = self.breaks[0]
+        return np.append(breaks[self.interval] + np.diff(breaks)[self.interval] * self.share, breaks[-1])
+
     @property
     def moves(self) -> NDArray[np.bool_]:
         """Whether each panel has other edges in other designs."""
         moving = self.followed_end >= 0
-        return np.repeat(moving[1:] | moving[:-1], self.parts)
+        return np.asarray((moving[1:] | moving[:-1])[self.interval])
 
     @property
     def ends(self) -> NDArray[np.intp]:
         """Index of the end of a law at each edge of a panel, -1 if there is none."""
-        ends = np.full(int(self.parts.sum()) + 1, -1)
-        ends[np.append(0, np.cumsum(self.parts))] = self.followed_end
+        ends = np.full(self.share.size + 1, -1)
+        ends[np.append(np.flatnonzero(self.share == 0), -1)] = self.followed_end
         return ends
 
     def at(self, ends: Array) -> Array:
@@ -155,9 +173,7 @@ class Edges(NamedTuple):
         breaks = np.repeat(self.breaks[0][:, None], ends.shape[1], axis=1)
         moving = np.flatnonzero(self.followed_end >= 0)
         breaks[moving] += (ends - self.stated[:, None])[self.followed_end[moving]]
-        interval = np.repeat(np.arange(self.parts.size), self.parts)
-        share = np.concatenate([np.arange(count) / count for count in self.parts])[:, None]
-        inner = breaks[interval] + (breaks[interval + 1] - breaks[interval]) * share
+        inner = breaks[self.interval] + (breaks[self.interval + 1] - breaks[self.interval]) * self.share[:, None]
         return np.concatenate([inner, breaks[-1:]])
 
 
@@ -205,9 +221,8 @@ def with_delayed_breakpoints(breaks: Array, delays: Sequence[float], most: int) 
     return start + np.append(offsets, cycle)
 
 
-def subdivide(breaks: Array, width: float) -> tuple[Array, NDArray[np.intp]]:
-    """Return edges of panels of limited width, and the number of panels between breakpoints. [deg]"""
-    parts = np.maximum(1, np.ceil(np.diff(breaks) / width - _ANGLE_TOLERANCE)).astype(np.intp)
-    intervals = zip(breaks, breaks[1:], parts, strict=False)
-    inner = [np.linspace(low, high, count, endpoint=False) for low, high, count in intervals]
-    return np.append(np.concatenate(inner), breaks[-1]), parts
+def subdivide(breaks: Sequence[Array], width: float) -> Edges:
+    """Return edges of panels of limited width between the breakpoints of the first design. [deg]"""
+    parts = np.maximum(1, np.ceil(np.diff(breaks[0]) / width - _ANGLE_TOLERANCE)).astype(np.intp)
+    share = np.concatenate([np.arange(count) / count for count in parts])
+    return Edges(breaks, np.repeat(np.arange(parts.size), parts), share)

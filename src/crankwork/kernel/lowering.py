@@ -41,6 +41,7 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kernel.graph import ByAngle, KernelGraph, KernelValue, LawEnd
 from crankwork.kernel.graph import in_order as values_in_order
+from crankwork.kernel.schedule import replaced
 
 Array = NDArray[np.float64]
 
@@ -60,6 +61,8 @@ _FEW_LAWS = 4
 _BEYOND, _MIN_BEYOND = 0.5, 0.01
 # Newton steps to an angle, and the largest last step [deg]
 _STEPS, _CONVERGED = 6, 1e-7
+# Newton steps to forces with friction, and the largest last step relative to their size
+_FORCE_STEPS, _SETTLED = 5, 1e-8
 
 # procedures that look at a whole column
 _REDUCTIONS = (
@@ -104,6 +107,7 @@ class DesignTraces:
         self._matched: dict[int, tuple[Node, ...]] = {}
         self._general_forms: dict[int, TracedValue] = {}
         self.differs: dict[int, bool] = {}
+        self.roots: list[Node] = []
         for key in keys:
             self.add(key)
 
@@ -134,14 +138,18 @@ class DesignTraces:
                     raise NotCompiledError("ways", name)
             self._matched[id(first)] = nodes
             new.append(id(first))
-            needed = [self.dependencies(node) for node in nodes]
+            needed = [(*self.dependencies(node), *_solved(node)) for node in nodes]
             if len({len(operands) for operands in needed}) > 1:
                 raise NotCompiledError("ways", name)
             stack += [
                 (tuple(operand.node for operand in operands), operands[0].key or name)
                 for operands in zip(*needed, strict=True)
             ]
-        for known in in_order(traced[:1], into=self.dependencies):
+        roots = [self._matched[node][0] for node in new if isinstance(self._matched[node][0], Root)]
+        self.differs |= {id(root): True for root in roots}
+        self.roots += roots
+        below_roots = (known for root in roots for known in _solved(root))
+        for known in in_order((*below_roots, *traced[:1]), into=self.dependencies):
             node = known.node
             if id(node) not in self.differs:
                 below = any(self.differs[id(operand.node)] for operand in self.dependencies(node))
@@ -190,6 +198,13 @@ class DesignTraces:
             # exact to the last digit, if the field only has another unit
             slope, offset = values[0] / x[0] if x[0] else slope, 0.0
         return graph.input(moved[0]) * float(slope) + float(offset)
+
+
+def _solved(node: Node) -> Sequence[TracedValue]:
+    """Return what the unknowns of a root follow from, and where they have corners."""
+    if not isinstance(node, Root):
+        return ()
+    return (*node.residuals, *(known for column, ends in node.sides for known in (column, *ends)))
 
 
 def _has_general_form(node: Node) -> bool:
@@ -262,15 +277,17 @@ class Lowering:
         sample_angles: Array,
         *,
         is_shifted: bool,
+        is_exact: bool = False,
         beforehand: Mapping[int, int] | None = None,
     ) -> None:
         self.graph, self._sample_angles, self._beforehand = KernelGraph(), sample_angles, beforehand or {}
-        self._designs, self._angles_at, self._is_shifted = designs, angles_at, is_shifted
+        self._designs, self.angles_at, self._is_shifted, self._is_exact = designs, angles_at, is_shifted, is_exact
         # positive for designs that are within the range of the compared ones
         self._guards: list[KernelValue] = []
         self._ends: dict[int, tuple[LawEnd, Array, TracedValue]] = {}
         self._values: dict[tuple[int, float | None, float], KernelValue] = {}
         self._by_angle = ByAngle(self.graph)
+        self._roots: dict[tuple[int, float | None, float], list[KernelValue]] = {}
         self._waves: dict[tuple[str, float], _Wave] = {}
         # keys with the same value in every design
         self.steady: set[str] = set()
@@ -351,8 +368,10 @@ class Lowering:
                 return self.graph.constant(0.0)
             case ProcedureValue():
                 return self._found(known, node) if node.general_form is None else self.value(node.general_form)
-            case Root() | Component():
-                raise NotCompiledError("solved", known.key)
+            case Root():
+                return self.graph.constant(0.0)
+            case Component(operands=(root,), at=index):
+                return self._unknowns(root, shift, fixed, known.key)[index]
         return self._of_angles(known, value_of, shift, fixed)
 
     def _of_angles(self, known: TracedValue, value_of: Any, shift: float, fixed: float | None) -> KernelValue:  # noqa: ANN401
@@ -383,7 +402,7 @@ class Lowering:
             # within the cycle, which a multiple is not
             function = "within" if node.function == "degrees" else node.function
             return self.graph.angle(function, node.multiple, node.shift + node.multiple * shift)
-        angles: Angles = self._angles_at([fixed])
+        angles: Angles = self.angles_at([fixed])
         column = getattr(angles.multiple(node.multiple).shifted(node.shift), node.function)
         return self.graph.constant(float(column[0]))
 
@@ -409,9 +428,17 @@ class Lowering:
             if any(end.low <= fixed <= end.high for end in ends if end.value is not None):
                 raise NotCompiledError("ends", known.key)
             return laws[min(int(np.searchsorted(node.ends, fixed, side="left")), len(laws) - 1)]
-        pieces = self.graph.pieces(ends, laws, shift)
-        # many laws have short loops of their own, and the columns that depend on them one common loop
-        return self.graph.delayed(pieces, 0.0) if len(laws) > _FEW_LAWS else pieces
+        pieces = self._stored(self.graph.pieces(ends, laws, shift), len(laws))
+        if getattr(node.operands[0].node, "word", "") == "against":
+            self._keep_sides(node.operands[0].node.operands[0], -pieces, shift)
+        return pieces
+
+    def _stored(self, pieces: KernelValue, count: int) -> KernelValue:
+        """Return pieces, stored if they are of many laws or many operations follow.
+
+        They have short loops of their own then, and the columns that depend on them one common loop.
+        """
+        return self.graph.delayed(pieces, 0.0) if count > _FEW_LAWS or self._designs.roots else pieces
 
     def _end(self, place: TracedValue | float) -> LawEnd:
         """Return the end of a law, with the interval of the compared designs and a margin."""
@@ -437,14 +464,18 @@ class Lowering:
         """Return what must be reduced from columns before the ends of laws are known, by the ids of the nodes."""
 
         def into(node: Node) -> Sequence[TracedValue]:
-            return () if is_reduced(node) else self._designs.dependencies(node)
+            return () if is_reduced(node) else (*self._designs.dependencies(node), *_solved(node))
 
         def is_reduced(node: Node) -> bool:
             if not isinstance(node, ProcedureValue) or node.general_form is not None:
                 return False
             return isinstance(node, FunctionValue) or node.word in _REDUCTIONS
 
-        places = [place for end, _, place in self._ends.values() if end.value is not None and end.value.level > 0]
+        places = [
+            place
+            for end, _, place in self._ends.values()
+            if end.value is not None and (end.value.level > 0 or id(place.node) in self._beforehand)
+        ]
         below = {id(known.node): known for known in in_order(places, into=into) if is_reduced(known.node)}
         return {index: known for index, known in below.items() if self._designs.differs[index]}
 
@@ -492,7 +523,7 @@ class Lowering:
         last = max(float(self._sample_angles[-1]), float(knots[0, -1])) if knots.size else 0.0
         edges = np.array([0.0, *knots[0], last])
         at_knots, between = (
-            replay(argument, self._angles_at(angles)) + np.zeros(len(angles))
+            replay(argument, self.angles_at(angles)) + np.zeros(len(angles))
             for angles in (knots[0], [fixed] if fixed is not None else (edges[1:] + edges[:-1]) / 2)
         )
         ends = []
@@ -513,7 +544,7 @@ class Lowering:
             ]
             inside = self.graph.pieces(tuple(ends), tuple(within), shift)
             self._guards.append(self.graph.reduction("min", inside) + _PASSED)
-        return self.graph.pieces(tuple(ends), tuple(laws), shift)
+        return self._stored(self.graph.pieces(tuple(ends), tuple(laws), shift), 0)
 
     def _within(self, x: KernelValue, low: float, high: float) -> KernelValue:
         """Return a value that is negative where a column is not between two abscissas."""
@@ -540,6 +571,8 @@ class Lowering:
         match node:
             case FunctionValue():
                 return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
+            case ProcedureValue(word="against") if len({x.value for x in self._designs.counterparts(node)}) == 1:
+                return self.graph.constant(node.value or 0.0)
             case HarmonicCoefficient():
                 return self._harmonic(self.value(node.operands[0]), node)
         return self._of_word(known, node)
@@ -574,6 +607,62 @@ class Lowering:
                 return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
         raise NotCompiledError("procedure", known.key or node.word)
 
+    def _keep_sides(self, column: TracedValue, signs: KernelValue, shift: float) -> None:
+        """Guard that a column has these signs."""
+        size = float(np.max(np.abs(replay(column, self.angles_at(self._sample_angles))), initial=0.0)) or 1.0
+        inside = signs * self.value(column, shift=shift) / size
+        self._guards.append(self.graph.reduction("least", inside) + _PASSED)
+
+    def _unknowns(self, known: TracedValue, shift: float, fixed: float | None, key: str) -> list[KernelValue]:
+        """Return the unknowns of a root by Newton's method, from the residuals of all unknowns being zero.
+
+        As in an analysis the determinant of the equations tells whether there are such forces: a guard.
+        """
+        root, where = known.node, (id(known.node), fixed, shift)
+        if where in self._roots:
+            return self._roots[where]
+        if not isinstance(root, Root) or not root.residuals or root.operands:
+            raise NotCompiledError("solved", key)
+        unknowns = [self.graph.unknown(*where, index) for index in range(len(root.residuals))]
+        # what follows from the places of unknowns is not kept
+        self._roots[where], kept = unknowns, dict(self._values)
+        residuals = [self.value(residual, shift=shift, fixed=fixed) for residual in root.residuals]
+        self._values = kept
+        indices = [unknown.index for unknown in unknowns]
+        steps, margin = self._newton_step(unknowns, residuals)
+        values = [-start for start in replaced(residuals, dict.fromkeys(indices, self.graph.constant(0.0)))]
+        for _ in range(_FORCE_STEPS):
+            *last, determinant = replaced([*steps, margin], dict(zip(indices, values, strict=True)))
+            values = [value - step for value, step in zip(values, last, strict=True)]
+        self._roots[where] = values
+        open_yet, size = (functools.reduce(operator.add, (x * x for x in of)) for of in (last, values))
+        settled = self.graph.apply("choose", size * _SETTLED**2 - open_yet, determinant, -1.0)
+        self._guards.append(settled if fixed is not None else self.graph.reduction("least", settled))
+        for column, places in root.sides if self._is_exact and fixed is None else ():
+            ends = (*map(self._end, places), LawEnd(math.inf, math.inf, math.inf))
+            edges = np.array([0.0, *(end.stated for end in ends[:-1]), self._sample_angles[-1]])
+            signs = np.sign(replay(column, self.angles_at((edges[1:] + edges[:-1]) / 2)))
+            pieces = self.graph.pieces(ends, tuple(map(self._as_value, signs.tolist())), shift)
+            self._keep_sides(column, self._stored(pieces, 0), shift)
+        return values
+
+    def _newton_step(
+        self, unknowns: Sequence[KernelValue], residuals: Sequence[KernelValue]
+    ) -> tuple[list[KernelValue], KernelValue]:
+        """Return how far unknowns are above the root of linearised residuals, and the determinant of the latter."""
+        slopes = [ByAngle(self.graph, unknown) for unknown in unknowns]
+        rows = [[*(slope.of(residual) for slope in slopes), residual] for residual in residuals]
+        determinant = self.graph.constant(1.0)
+        for place, pivot in enumerate(rows):
+            determinant = determinant * pivot[place]
+            pivot[place:] = [value / pivot[place] for value in pivot[place:]]
+            for row in rows:
+                if row is not pivot:
+                    row[place:] = [
+                        value - row[place] * other for value, other in zip(row[place:], pivot[place:], strict=True)
+                    ]
+        return [row[-1] for row in rows], determinant
+
     def _is_zero(self, node: Node) -> bool:
         """Return whether a value is zero in every design compared: what cancels leaves rounding elsewhere."""
         return all(other.value == 0.0 for other in self._designs.counterparts(node))
@@ -592,6 +681,12 @@ class Lowering:
             self._waves.setdefault((function, node.order), _Wave(getattr(np, function), math.radians(node.order)))
             wave = self.graph.reading(self._waves[function, node.order], 0.0)
         return self.graph.reduction("mean", column * wave) * 2.0
+
+    def at_input(self, place: TracedValue, index: int) -> KernelValue:
+        """Return the column that reaches zero at a place, at an angle that is an input. [deg]"""
+        node = place.node
+        assert isinstance(node, ProcedureValue)  # noqa: S101 - so corners are traced
+        return self._at(node.operands[0], self.graph.input(index), node.at or 0.0)
 
     def _at(self, column: TracedValue, degrees: KernelValue, near: float) -> KernelValue:
         try:

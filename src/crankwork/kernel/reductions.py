@@ -113,14 +113,16 @@ class PolynomialReductions:
 
     def panels(self, columns: Array) -> Array:
         """Return columns split into panels, shape (columns, panels, nodes, lanes)."""
-        return columns.reshape(len(columns), -1, self._nodes.size, columns.shape[-1])
+        return columns.reshape(len(columns), self.count, self._nodes.size, columns.shape[-1])
 
     def truncation_error(self, columns: Array) -> Array:
-        """Return the last coefficients of columns relative to their size, shape (columns, lanes)."""
-        values = self.panels(columns)
-        last = np.abs(np.matmul(self._to_coefficients[-2:], values)).sum(axis=2)
-        size = np.maximum(np.abs(columns).max(axis=1), np.finfo(float).tiny)
-        return np.asarray(last.max(axis=1) / size)
+        """Return the largest truncation error of columns, shape (columns, lanes)."""
+        return np.asarray(self.errors_of_panels(columns).max(axis=1))
+
+    def errors_of_panels(self, columns: Array) -> Array:
+        """Return the last coefficients of columns relative to their size, shape (columns, panels, lanes)."""
+        last = np.abs(np.matmul(self._to_coefficients[-2:], self.panels(columns))).sum(axis=2)
+        return np.asarray(last / np.maximum(np.abs(columns).max(axis=1), np.finfo(float).tiny)[:, None])
 
     def integrals(self, columns: Array) -> Array:
         """Return the integrals of columns over the crank angle, shape (columns, lanes)."""
@@ -336,7 +338,7 @@ class Block:
         self._is_root = is_root = np.array([column.kind == "sqrt" for column in reduced.values()])
         self._smooth = np.where(is_root[:, None, None], self._columns**2, self._columns)
         self._truncation_error = reductions.truncation_error(self._smooth)
-        self.truncation_error: Array = self._truncation_error.max(axis=0)
+        self.truncation_error: Array = self._truncation_error.max(axis=0, initial=0.0)
         self.cycle = np.radians(source.plan.grid.cycle)
         self._integral = reductions.integrals(self._columns)
         if is_root.any() and any(value.detail == "mean" for value in values):
@@ -360,6 +362,8 @@ class Block:
             case "range" | "tangents":
                 up, down = self.range(reduction)
                 return np.asarray(up.peaks.value[0] + down.peaks.value[0])
+            case "least":
+                return np.asarray(self.column(reduction.operands[0])[0].min(axis=0))
         extreme, is_angle = self.extreme(reduction)
         if is_angle:
             return np.asarray(extreme.peaks.angle[0])
@@ -372,6 +376,10 @@ class Block:
         if not isinstance(self.reductions, PolynomialReductions):
             raise TypeError("evenly spaced angles are not followed")
         return self.reductions
+
+    def coarse_panels(self, enough: float) -> NDArray[np.bool_]:
+        """Return which panels have a larger truncation error in a design, shape (panels,)."""
+        return np.asarray((self.polynomials.errors_of_panels(self._smooth) > enough).any(axis=(0, 2)))
 
     def truncation_error_of(self, reduction: KernelValue) -> Array:
         """Return the truncation error of the columns of a reduction, shape (lanes,)."""
@@ -431,4 +439,6 @@ def _polynomial_columns(reduction: KernelValue) -> tuple[KernelValue, ...]:
     """Return the columns of a reduction that polynomials must approximate."""
     if reduction.detail.startswith("procedure"):
         return reduction.operands
+    if reduction.detail == "least":
+        return ()
     return reduction.operands[:2] if reduction.detail == "tangents" else reduction.operands[:1]

@@ -21,11 +21,15 @@ Form = dict[tuple[KernelValue | None, KernelValue | None], float]
 
 
 class Loop(NamedTuple):
-    """Operations at the angles at which the same laws hold: values in order, and the stored columns."""
+    """Operations at the angles at which the same laws hold: values in order, and the stored columns.
+
+    `unused`: indices of those values that no later one needs, after each.
+    """
 
     angles: NDArray[np.intp]
     values: tuple[KernelValue, ...]
     columns: tuple[KernelValue, ...]  # In the order of `Level.columns`
+    unused: tuple[tuple[int, ...], ...]
 
 
 class Level(NamedTuple):
@@ -81,7 +85,7 @@ class Schedule:
         delayed_columns = [column for value in needed if value.kind == "delayed" for column in value.operands]
         stored = {column.index: column.graph.delayed(column, 0.0) for column in delayed_columns}
         stored = {index: value for index, value in stored.items() if value.level <= level}
-        loops = tuple(self._loops(_replaced(list(columns), stored)))
+        loops = tuple(self._loops(replaced(list(columns), stored)))
         # after laws have been chosen, for example the product of a law and an area no longer depends on the angle
         operands = [operand for loop in loops for value in loop.values for operand in value.operands]
         operands += [column for loop in loops for column in loop.columns]
@@ -122,14 +126,14 @@ class Schedule:
             resolved = self._with_laws(columns, chosen, is_moving=is_moving)
             roots = [resolved[column.index] for column in columns]
             if self._shares:
-                roots = _replaced(roots, shared(roots, in_order(roots, into=_at_this_angle)))
+                roots = replaced(roots, shared(roots, in_order(roots, into=_at_this_angle)))
                 roots = _with_few_divisions(roots)
             needed = list(in_order(roots, into=lambda value: value.depends_on_design and _at_this_angle(value)))
             for value in needed:
                 if value.depends_on_angle and not value.depends_on_design and value.kind != "delayed":
                     self._put_in_table(value, angles)
             values = [value for value in needed if value.depends_on_angle and value.depends_on_design]
-            yield Loop(angles, tuple(values), tuple(roots))
+            yield Loop(angles, tuple(values), tuple(roots), _unused(values, roots))
 
     def _laws_at(self, value: KernelValue, middle: float) -> tuple[int, int]:
         """Return the first and the last of the laws that may hold at a crank angle, depending on the design."""
@@ -205,6 +209,16 @@ class Schedule:
         return results
 
 
+def _unused(values: Sequence[KernelValue], kept: Iterable[KernelValue]) -> tuple[tuple[int, ...], ...]:
+    """Return the indices of values that are used for the last time in each of them."""
+    place = {value.index: number for number, value in enumerate(values)}
+    last = place | {operand.index: number for number, value in enumerate(values) for operand in value.operands}
+    unused: list[list[int]] = [[] for _ in values]
+    for index in place.keys() - {value.index for value in kept}:
+        unused[last[index]].append(index)
+    return tuple(map(tuple, unused))
+
+
 def _at_this_angle(value: KernelValue) -> bool:
     """Return whether the operands of a value are needed at the same crank angle."""
     return value.depends_on_angle and value.kind != "delayed"
@@ -227,14 +241,14 @@ def _with_few_divisions(roots: list[KernelValue]) -> list[KernelValue]:
             return roots
         (first, a), (second, b) = ((division, division.operands[1]) for division in pair)
         both = first.graph.apply("div", 1.0, a * b)
-        roots = _replaced(roots, {first.index: b * both, second.index: a * both})
+        roots = replaced(roots, {first.index: b * both, second.index: a * both})
 
 
 def _depends_on(value: KernelValue, other: KernelValue) -> bool:
     return any(operand is other for operand in in_order([value], into=_at_this_angle))
 
 
-def _replaced(roots: list[KernelValue], replacements: dict[int, KernelValue]) -> list[KernelValue]:
+def replaced(roots: list[KernelValue], replacements: dict[int, KernelValue]) -> list[KernelValue]:
     """Return values with some of their operands replaced."""
     results = dict(replacements)
     for value in in_order(roots, into=lambda node: node.index not in replacements and _at_this_angle(node)):
