@@ -16,10 +16,10 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "75100d5a2602",
-    "formulas": "df836a863aa2",
-    "quantities": "aa2680ee456c",
-    "defaults": "56d384bb604c",
+    "symbols": "f4b474cf9fab",
+    "formulas": "7590ac5349b7",
+    "quantities": "f052ff0a4d6b",
+    "defaults": "59fd6ef75afd",
 }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.analysis.prepared import PreparedMachine
+from crankwork.preparation.prepared import PreparedMachine
 from crankwork.analysis.results import Results
 from crankwork.formula.calculation import Calculation
 from crankwork.kinematics.crank_grid import CrankGrid
