@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import os
+import re
 import shutil
 import sys
 import time
@@ -30,6 +31,10 @@ ROOT = Path(__file__).parents[2]
 _FOLDER = Path(sys.argv[1]) if len(sys.argv) > 1 else None
 SOURCE, SITE = (_FOLDER / "docs", _FOLDER / "site") if _FOLDER else (ROOT / "build" / "docs", ROOT / "site")
 _STARTED = time.monotonic()
+_LINK = re.compile(r"\]\(\.\./\.\./(?P<path>[^)]+)\)")
+# what a page of the site says of a place in the repository
+_PLACES = {"examples": "gallery/index.md", "tests/literature": "validation/index.md",
+           "src/crankwork/quantities": "reference/en/results/index.md"}  # fmt: skip
 _NAMES = {"en": "English", "ru": "По-русски", "vi": "Tiếng Việt"}
 
 
@@ -86,6 +91,22 @@ def _decisions() -> None:
     _write(folder, [("index", f"# Decisions\n\nWhy things are as they are.\n\n{toctree}")])
 
 
+def _guide() -> None:
+    """Bring the guide, to which the README leads: links to files of the repository lead to pages of the site."""
+    folder = SOURCE / "guide"
+    folder.mkdir()
+    for path in sorted((ROOT / "docs" / "guide").glob("*.md")):
+        _write(folder, [(path.stem, _LINK.sub(_place_in_site, path.read_text(encoding="utf-8")))])
+    shutil.copy(ROOT / "README.md", SOURCE)
+
+
+def _place_in_site(match: re.Match[str]) -> str:
+    path = match["path"]
+    folder, _, name = path.rpartition("/")
+    example = name.removesuffix(".toml") if folder == "examples" and name.endswith(".toml") else ""
+    return f"](../{_PLACES.get(path) or (f'gallery/{example}.md' if example else path)})"
+
+
 def _fill(path: Path) -> None:
     written = path.read_text(encoding="utf-8")
     if filled_pages.is_filled(written):
@@ -108,14 +129,16 @@ def main() -> int:
         say("references")
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
             list(threads.map(_fill, sorted(SOURCE.rglob("*.md"))))
+        _guide()
         say("commands of pages")
         notes = validation_pages.finish(tests, comparisons)
     finally:
         tests.kill()
     comparisons.unlink()
     _write(SOURCE / "validation", validation_pages.pages(notes))
+    index = SOURCE / "index.md"
+    index.write_text(index.read_text(encoding="utf-8").replace("VALIDATION", validation_pages.short(notes)), "utf-8")
     say("validation")
-    interactive = SOURCE / "interactive"
     status: int = build_main(
         [
             "-q",
@@ -131,7 +154,8 @@ def main() -> int:
             str(SITE),
         ]
     )
-    shutil.copytree(interactive, SITE / "interactive")
+    shutil.copytree(SOURCE / "interactive", SITE / "interactive")
+    shutil.copytree(ROOT / "docs" / "images", SITE / "images")
     say(f"site: {SITE / 'index.html'}")
     return status
 

@@ -44,6 +44,8 @@ Of many numbers compared at once the row shows the one that differs most. *Allow
 rule half of the last printed digit, in the unit of the value. Values are in SI units unless the test converts them to
 those of the source.
 """
+_SOURCES = ("Source", "Numbers", "Median difference", "Largest difference", "Remarks")
+_SHOWN_FIRST = 6
 _HEADINGS = ("Case", "What", "Printed or recalculated", "Computed", "Difference", "Allowed")
 
 
@@ -171,26 +173,48 @@ def _row(note: Mapping[str, Any], module: Module) -> tuple[str, ...]:
     )
 
 
-def pages(notes: list[dict[str, Any]]) -> Iterator[tuple[str, str]]:
-    """Yield the name of each page, without its ending, and its text."""
+def _by_module(notes: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
     by_module: dict[str, list[dict[str, Any]]] = {}
     for note in notes:
         by_module.setdefault(note["module"], []).append(note)
-    modules = {name: Module.read(name) for name in sorted(by_module)}
+    return dict(sorted(by_module.items()))
+
+
+def _differences(notes: list[dict[str, Any]]) -> list[float]:
+    return [difference(note) for note in notes if note["kind"] == "value" and note["printed"]]
+
+
+def _source_row(module: Module, notes: list[dict[str, Any]], folder: str = "") -> tuple[str, ...]:
+    own = _differences(notes)
+    return (
+        f'<a href="{folder}{module.name.removeprefix("test_")}.html">{text(module.title)}</a>',
+        str(sum(note["count"] for note in notes)),
+        f"{statistics.median(own):.1e}" if own else "–",
+        f"{max(own):.1e}" if own else "–",
+        str(len(module.remarks()) + len(module.slips)),
+    )
+
+
+def short(notes: list[dict[str, Any]]) -> str:
+    """Return for the first page how many numbers there are, and the sources with the most comparisons."""
+    by_module = _by_module(notes)
+    most = sorted(by_module, key=lambda name: -len(_differences(by_module[name])))[:_SHOWN_FIRST]
+    rows = [_source_row(Module.read(name), by_module[name], "validation/") for name in most]
+    numbers = sum(note["count"] for note in notes)
+    return (
+        f"**{len(by_module)} sources, {len(notes)} comparisons of {numbers} numbers**; those with the most comparisons:"
+        f"\n\n{raw([table(_SOURCES, rows)])}"
+    )
+
+
+def pages(notes: list[dict[str, Any]]) -> Iterator[tuple[str, str]]:
+    """Yield the name of each page, without its ending, and its text."""
+    by_module = _by_module(notes)
+    modules = {name: Module.read(name) for name in by_module}
     values = [note for note in notes if note["kind"] == "value" and note["printed"]]
     digits = [note for note in values if (note["allowed"] or 0.0) > _FEW_DIGITS * abs(note["printed"])]
     many = [note for note in values if note not in digits]
-    rows = []
-    for name, module in modules.items():
-        own = [difference(note) for note in by_module[name] if note["kind"] == "value" and note["printed"]]
-        page = name.removeprefix("test_")
-        rows.append((
-            f'<a href="{page}.html">{text(module.title)}</a>',
-            str(sum(note["count"] for note in by_module[name])),
-            f"{statistics.median(own):.1e}" if own else "–",
-            f"{max(own):.1e}" if own else "–",
-            str(len(module.remarks()) + len(module.slips)),
-        ))  # fmt: skip
+    rows = [_source_row(module, by_module[name]) for name, module in modules.items()]
     head = _HEAD.format(
         sources=len(modules),
         comparisons=len(notes),
@@ -200,9 +224,8 @@ def pages(notes: list[dict[str, Any]]) -> Iterator[tuple[str, str]]:
         many=len(many),
         many_largest=f"{max(map(difference, many)):.0e}",
     )
-    headings = ("Source", "Numbers", "Median difference", "Largest difference", "Remarks")
     toctree = "\n".join(["```{toctree}", ":hidden:", "", *(name.removeprefix("test_") for name in modules), "```"])
-    yield "index", "\n".join([head, raw([table(headings, rows)]), toctree])
+    yield "index", "\n".join([head, raw([table(_SOURCES, rows)]), toctree])
     for name, module in modules.items():
         yield name.removeprefix("test_"), _page(module, by_module[name])
 

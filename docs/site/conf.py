@@ -5,7 +5,8 @@ author = "crankwork contributors"
 html_title = "crankwork"
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 source_suffix = {".md": "markdown"}
-exclude_patterns = ["examples"]
+# what pages show or include
+exclude_patterns = ["examples", "README.md", "guide/conventions.md"]
 html_theme = "furo"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
