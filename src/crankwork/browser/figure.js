@@ -8,8 +8,10 @@ import { nearest, placeOf, told } from "./numbers.js";
 
 /**
  * Graphs of a drawing, what each row of its legend tells of, names of curves, and what it shows in words; whether it
- * differs where sliders move, and cannot follow; where the cursor stands when a plan of one position is true.
- * @typedef {{plots: Plot[], legend: string[][], told?: string, filed?: boolean, at?: number}} FigureData
+ * differs where sliders move, and cannot follow; where the cursor stands when a plan of one position is true, or places of
+ * the cursor and what is drawn at each.
+ * @typedef {{plots: Plot[], legend: string[][], told?: string, filed?: boolean, at?: number, places?: number[],
+ *   shown?: string[]}} FigureData
  */
 
 const SVG = "http://www.w3.org/2000/svg";

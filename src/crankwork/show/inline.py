@@ -37,6 +37,30 @@ def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str
 
     `about`: alternative text; `marks`: a class for each item, mostly empty, by which the page finds it.
     """
+    writer = _writer(drawing)
+    written = _grouped(writer, drawing.items, marks) if marks else writer.written(drawing.items)
+    return _element(drawing, name, about or alt_text(drawing), written, writer.usual)
+
+
+def inline_positions(drawings: Sequence[Drawing | None], name: str, about: str, row: int) -> tuple[str, list[str]]:
+    """Return one of some drawings as an element that has room for each, and what of each is not in all.
+
+    A group of the element has that of its own.
+    """
+    writers = [_writer(drawing) for drawing in drawings if drawing is not None]
+    shown = iter(writers)
+    lists = [
+        [] if drawing is None else ["".join(writer.written((item,))) for item in drawing.items]
+        for drawing in drawings for writer in ([None] if drawing is None else [next(shown)])
+    ]  # fmt: skip
+    highest = max((drawing for drawing in drawings if drawing is not None), key=lambda drawing: drawing.height)
+    steady = set.intersection(*(set(written) for written in lists if written))
+    moving = ["".join(text for text in written if text not in steady) for written in lists]
+    fixed = [text for text in lists[row] if text in steady]
+    return _element(highest, name, about, [*fixed, '<g class="moving">', moving[row], "</g>"], writers[0].usual), moving
+
+
+def _writer(drawing: Drawing) -> _InlineWriter:
     # panels have curves of the same name; their angles follow in the order of the panels
     angles = dict[str, list[Array]]()
     for plot in drawing.plots:
@@ -45,10 +69,7 @@ def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str
             angles.setdefault(curve, []).extend(column[part] for part in parts)
     heights = [round(100 * item.height / CAP_HEIGHT) for item in drawing.items if isinstance(item, Text)]
     sizes = Counter(map(_hundredths, heights))
-    usual = max(sizes, key=lambda size: sizes[size], default="3")
-    writer = _InlineWriter(drawing.height, angles, usual)
-    written = _grouped(writer, drawing.items, marks) if marks else writer.written(drawing.items)
-    return _element(drawing, name, about or alt_text(drawing), written, usual)
+    return _InlineWriter(drawing.height, angles, max(sizes, key=lambda size: sizes[size], default="3"))
 
 
 def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> Iterator[str]:
@@ -83,7 +104,7 @@ class _InlineWriter(SvgWriter):
 
     def __init__(self, height: float, angles: Mapping[str, list[Array]], usual: str = "") -> None:
         super().__init__(height, palette_of("print"))
-        self._angles, self._kind, self._usual = angles, "", usual
+        self._angles, self._kind, self.usual = angles, "", usual
 
     def _invisible_deviation(self, item: Polyline) -> float:
         return _INVISIBLE_DEVIATION if item.name else super()._invisible_deviation(item)
@@ -130,7 +151,7 @@ class _InlineWriter(SvgWriter):
 
     def _sized(self, size: float) -> str:
         written = self._number(size)
-        return "" if written == self._usual else f' font-size="{written}"'
+        return "" if written == self.usual else f' font-size="{written}"'
 
     def _filled(self, fill: float | None, colour: str = "") -> str:
         return "" if fill is None else super()._filled(fill, colour)
