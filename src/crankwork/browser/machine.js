@@ -128,16 +128,16 @@ export function smooth(packed) {
  */
 export function choose(film, motion) {
   const { svg } = film;
-  const room = svg.parentElement?.querySelector(".controls");
-  for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (room?.querySelectorAll("[data-choice]") ?? [])) {
-    const own = svg.querySelectorAll(`[data-part^="${box.dataset.choice}"]`);
-    const show = () => own.forEach((one) => one.classList.toggle("on", box.checked));
-    box.addEventListener("change", show);
-    show();
-  }
   const [view, rate] = ["view", "rate"].map((id) => /** @type {HTMLSelectElement | null} */ (document.getElementById(id)));
-  const see = () => view && svg.setAttribute("viewBox", view.value);
-  view?.addEventListener("change", see);
+  const close = svg.getAttribute("viewBox") ?? "";
+  const boxes = /** @type {HTMLInputElement[]} */ ([...(svg.parentElement?.querySelectorAll("[data-choice]") ?? [])]);
+  const see = () => {
+    for (const { dataset, checked } of boxes) svg.querySelectorAll(`[data-part^="${dataset.choice}"]`).forEach((one) => one.classList.toggle("on", checked));
+    const some = boxes.some(({ checked }) => checked);
+    svg.querySelector('[data-part="force.scale"]')?.classList.toggle("on", some);
+    svg.setAttribute("viewBox", view?.value || (some && svg.dataset.whole) || close);
+  };
+  for (const one of [view, ...boxes]) one?.addEventListener("change", see);
   see();
   const run = () => (motion.rate = Number(rate?.value ?? 1));
   rate?.addEventListener("change", run);

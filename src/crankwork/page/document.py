@@ -75,6 +75,7 @@ _OF_TABS = {
     "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded",
 }
 _TABS = ("motion", "forces", "torque", "bearings", "balance")
+_FIRST = ("total_torque", "torque", "torques")
 _CARDS = 6
 # between positions of plans at most [deg], and how many there are at most
 _WIDEST, _MOST = 15.0, 75
@@ -302,6 +303,9 @@ def page(
     if live is not None:
         trace.follow(live)
         marks, steps, is_filed = follow(live, results, data)
+    figures = _figures(drawn, pictures, marks, language)
+    # beside the machine there is room for one
+    first = "" if film is None or live else next((figures.pop(name) for name in _FIRST if name in figures), "")
     title, listed = title_of(results, language), words("tables", language)
     explained = set(data["memories"]["keys"])
     parts = [
@@ -314,9 +318,9 @@ def page(
         *([] if film is None else _machine(film, language, is_filed=is_filed)),
         '<div class="side">',
         *cards(results, explained, language, live),
-        *([] if live is None or moved is None else _sliders(live, moved, language)),
+        *([first] if live is None or moved is None else _sliders(live, moved, language)),
         "</div></div>",
-        *_figures(drawn, pictures, marks, language),
+        *_panels(figures, language),
         *values(results, explained, language, live),
         f'<section id="tables"><h3>{listed}</h3><p><select aria-label="{words("choice", language)}"></select></p>',
         f'<div class="scroll" tabindex="0" role="region" aria-label="{listed}"><table></table></div></section>',
@@ -448,15 +452,22 @@ def title_of(results: Results, language: Language) -> str:
 
 def _figures(
     drawn: dict[str, Drawing], pictures: Mapping[str, str], marks: dict[str, list[str]], language: Language
-) -> list[str]:
-    """Return the tabs, the panels of those that have figures, and the beginning of that of the values."""
-    panels: dict[str, list[str]] = {tab: [] for tab in _TABS}
+) -> dict[str, str]:
+    """Return figures as elements by name."""
+    figures = {}
     for name, drawing in drawn.items():
         title = figure_title(name, language) if name in pictures else drawing.title
         caption = f"<figcaption>{html.escape(capital(title))}</figcaption>"
         picture = pictures.get(name) or inline_svg(drawing, name, title, marks.get(name, ()))
-        tab = next((tab for tab, names in _OF_TABS.items() if re.search(names, name)), "motion")
-        panels[tab].append(f'<figure id="figure-{name}">{picture}{caption}</figure>')
+        figures[name] = f'<figure id="figure-{name}">{picture}{caption}</figure>'
+    return figures
+
+
+def _panels(figures: dict[str, str], language: Language) -> list[str]:
+    """Return the tabs, the panels of those that have figures, and the beginning of that of the values."""
+    panels: dict[str, list[str]] = {tab: [] for tab in _TABS}
+    for name, figure in figures.items():
+        panels[next((tab for tab, names in _OF_TABS.items() if re.search(names, name)), "motion")].append(figure)
     ends = {tab: f'<div class="figures">{"".join(all_)}</div></section>' for tab, all_ in panels.items() if all_}
     tabs, parts = [f'<div role="tablist" aria-label="{words("diagrams", language)}">'], ["</div>"]
     for tab, inside in (*ends.items(), ("all", "")):

@@ -55,6 +55,8 @@ _TALL, _MARGIN, _LIST_WIDTH, _LIST, _ROW = 330.0, 26.0, 170.8, 150.0, 13.5
 _LOWEST, _UNDER = 40.0, 3
 # a linkage whose points have velocities or accelerations a billionth of this stands still
 _STILL = 1e-3
+# of the largest value of a plan, what is none beside it
+_NOTHING = 1e-5
 # a plan smaller than this has a scale of its own [mm]
 _READ = 15.0
 _LOOKS: dict[Kind, tuple[float, Dashes]] = {
@@ -273,15 +275,18 @@ def _rows(
 ) -> list[str]:
     """Return the magnitudes of the vectors and the turning of the links; `is_whole`: of links that stand still too."""
     rows, unit = [], unit_name(kind.unit, language)
+    least = _NOTHING * _longest(plan) * is_whole
     for vector in vectors:
         mark = vector_mark(vector.kind, language) if kind.sign == "a" else ""
         name = math_symbol(f"{kind.sign}_{vector.name}", mark)
-        rows.append(f"{name} = {_four_digits(vector.length, language)} {unit}")
+        rows.append(f"{name} = {_four_digits(vector.length * (vector.length > least), language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
     for link, value in plan.turning.items():
-        if is_whole or abs(value) > 1e-9 * max(kind.size, *(abs(rate) for rate in plan.turning.values())):
+        share = abs(value) / max(kind.size, *(abs(rate) for rate in plan.turning.values()))
+        if is_whole or share > 1e-9:
             name = math_symbol(f"{kind.turning}_{link}")
-            rows.append(f"{name} = {_four_digits(value, language)} {unit}")
+            shown = value * (share > _NOTHING or not is_whole)
+            rows.append(f"{name} = {_four_digits(shown, language)} {unit}")
     return rows
 
 

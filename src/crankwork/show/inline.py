@@ -81,7 +81,11 @@ def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> 
 
 def inline_film(film: Animation, name: str) -> str:
     """Return an animation as an SVG element that is at rest until the page moves its parts."""
-    return _element(film.ground, name, film.about, film_body(film, _written))
+    box, drawn = film.whole, _element(film.ground, name, film.about, film_body(film, _written))
+    if box is None:
+        return drawn
+    view = f"{box.left:.1f} {film.ground.height - box.top:.1f} {box.width:.1f} {box.height:.1f}"
+    return drawn.replace("<svg", f'<svg data-whole="{view}"', 1)
 
 
 def _written(items: tuple[Item, ...], height: float) -> Iterator[str]:
