@@ -75,7 +75,7 @@ _OF_TABS = {
     "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded",
 }
 _TABS = ("motion", "forces", "torque", "bearings", "balance")
-_FIRST = ("total_torque", "torque", "torques")
+_FIRST = ("torque", "torques")
 _CARDS = 6
 # between positions of plans at most [deg], and how many there are at most
 _WIDEST, _MOST = 15.0, 75

@@ -599,7 +599,7 @@ def drawings_at(
         states = list(map(_state, machine.at(degrees)))
         plans = (
             [velocities(mechanism, moved, 0, first, links) for moved, first, _ in states],
-            [accelerations(mechanism, moved, 0, *rates, links) for moved, *rates in states],
+            [accelerations(mechanism, moved, 0, first, second, links) for moved, first, second in states],
         )
         each = list(replace(machine, around=tuple(map(corners_of, plans))).at(degrees))
         return {

@@ -270,9 +270,7 @@ def node_name(letter: str) -> str:
     return letter[0].lower() + letter[1:] if len(letter) <= 3 else letter
 
 
-def _rows(
-    vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language, *, is_whole: bool
-) -> list[str]:
+def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language, *, is_whole: bool) -> list[str]:
     """Return the magnitudes of the vectors and the turning of the links; `is_whole`: of links that stand still too."""
     rows, unit = [], unit_name(kind.unit, language)
     least = _NOTHING * _longest(plan) * is_whole
@@ -282,10 +280,10 @@ def _rows(
         rows.append(f"{name} = {_four_digits(vector.length * (vector.length > least), language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
     for link, value in plan.turning.items():
-        share = abs(value) / max(kind.size, *(abs(rate) for rate in plan.turning.values()))
-        if is_whole or share > 1e-9:
+        most = max(kind.size, *(abs(rate) for rate in plan.turning.values()))
+        if is_whole or abs(value) > 1e-9 * most:
             name = math_symbol(f"{kind.turning}_{link}")
-            shown = value * (share > _NOTHING or not is_whole)
+            shown = value if abs(value) > _NOTHING * most or not is_whole else 0.0
             rows.append(f"{name} = {_four_digits(shown, language)} {unit}")
     return rows
 

@@ -95,9 +95,7 @@ class Arrow(NamedTuple):
     label: str = ""
 
 
-def with_forces(
-    sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = None, *, has_room: bool = True
-) -> Sketch:
+def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = None, *, has_room: bool = True) -> Sketch:
     """Return a sketch with forces upon it, and how many units of force a millimetre of them is.
 
     `frame`: the only one that is looked at; its forces are as long as there is room, and their names clear of others;

@@ -17,12 +17,27 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.show.animation import Animation
 from crankwork.show.canvas import marked
 from crankwork.show.chart import true_slices
-from crankwork.show.scene import CAP_HEIGHT, Drawing, Item, LineKind, Pen, Plot, Polyline, Run, Text, pen_of, runs
+from crankwork.show.scene import (
+    CAP_HEIGHT,
+    ChartBox,
+    Drawing,
+    Item,
+    LineKind,
+    Pen,
+    Plot,
+    Polyline,
+    Run,
+    Text,
+    pen_of,
+    runs,
+)
 from crankwork.show.svg import SvgWriter, film_body
 from crankwork.show.theme import KINDS, Theme, alt_text, curve_kind, fill_colours, palette_of
 
 # deviation of a curve that is invisible on a screen [mm]
 _INVISIBLE_DEVIATION = 0.05
+# what of the margins of a film is not seen on a page [mm]
+_EDGE = 4.0
 # the same at a position that is given by its crank angle, between points of the curve [mm]
 _MISPLACED = 0.3
 _LETTERS = {10 * (index + 1): letter for index, letter in enumerate(string.ascii_lowercase)}
@@ -47,17 +62,18 @@ def inline_positions(drawings: Sequence[Drawing | None], name: str, about: str, 
 
     A group of the element has that of its own.
     """
-    writers = [_writer(drawing) for drawing in drawings if drawing is not None]
-    shown = iter(writers)
-    lists = [
-        [] if drawing is None else ["".join(writer.written((item,))) for item in drawing.items]
-        for drawing in drawings for writer in ([None] if drawing is None else [next(shown)])
-    ]  # fmt: skip
+    lists = [[] if drawing is None else _each(drawing) for drawing in drawings]
     highest = max((drawing for drawing in drawings if drawing is not None), key=lambda drawing: drawing.height)
     steady = set.intersection(*(set(written) for written in lists if written))
     moving = ["".join(text for text in written if text not in steady) for written in lists]
     fixed = [text for text in lists[row] if text in steady]
-    return _element(highest, name, about, [*fixed, '<g class="moving">', moving[row], "</g>"], writers[0].usual), moving
+    written = [*fixed, '<g class="moving">', moving[row], "</g>"]
+    return _element(highest, name, about, written, _writer(highest).usual), moving
+
+
+def _each(drawing: Drawing) -> list[str]:
+    writer = _writer(drawing)
+    return ["".join(writer.written((item,))) for item in drawing.items]
 
 
 def _writer(drawing: Drawing) -> _InlineWriter:
@@ -81,11 +97,11 @@ def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> 
 
 def inline_film(film: Animation, name: str) -> str:
     """Return an animation as an SVG element that is at rest until the page moves its parts."""
-    box, drawn = film.whole, _element(film.ground, name, film.about, film_body(film, _written))
-    if box is None:
-        return drawn
-    view = f"{box.left:.1f} {film.ground.height - box.top:.1f} {box.width:.1f} {box.height:.1f}"
-    return drawn.replace("<svg", f'<svg data-whole="{view}"', 1)
+    drawn, height = _element(film.ground, name, film.about, film_body(film, _written)), film.ground.height
+    near = ChartBox(0.0, 0.0, film.ground.width, height).inset(*[_EDGE] * 4)
+    boxes = near, film.whole or near
+    views = [f"{box.left:.1f} {height - box.top:.1f} {box.width:.1f} {box.height:.1f}" for box in boxes]
+    return re.sub(r'viewBox="[^"]*"', f'viewBox="{views[0]}" data-whole="{views[1]}"', drawn, count=1)
 
 
 def _written(items: tuple[Item, ...], height: float) -> Iterator[str]:
