@@ -265,8 +265,8 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     whole = ChartBox(0.0, 0.0, width, height)
     if sketch.force_scale:
         if not has_room:
-            tips = [moving.shift for moving in placed.parts if moving.name.startswith("force.")]
-            tips = np.vstack([[(0.0, 0.0), (width, height)], *tips])
+            shifts = [moving.shift for moving in placed.parts if moving.name.startswith("force.")]
+            tips = np.vstack([[(0.0, 0.0), (width, height)], *shifts])
             low, high = tips.min(axis=0) - _AROUND, tips.max(axis=0) + _AROUND
             under = float(low[1]) - _ROW - _KEY * len(rows) - 3.0
             whole = ChartBox(float(low[0]), under, float(high[0] - low[0]), float(high[1]) - under)
