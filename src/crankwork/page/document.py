@@ -392,18 +392,18 @@ def _sliders(live: LivePage, moved: SliderDesigns, language: Language) -> list[s
     """Return the elements of the sliders."""
     title = words("sliders", language)
     parts = [f'<section id="sliders" aria-label="{title}"><h2>{title}</h2>']
-    for index, slider in enumerate(moved.sliders):
+    names = [capital(label(key, language)) if (key := live.name(slider)) else slider.key for slider in moved.sliders]
+    for index, (slider, own) in enumerate(zip(moved.sliders, names, strict=True)):
         now, low, high = (slider.shown(value) for value in (slider.now, slider.low, slider.high))
-        key = live.name(slider)
-        name = html.escape(f"{capital(label(key, language))} ({slider.key})" if key else slider.key)
+        name = html.escape(own if names.count(own) == 1 else f"{own} ({slider.key})")
         unit = html.escape(unit_name(slider.unit, language))
         ends = f'min="{low!r}" max="{high!r}"'
-        reach = " … ".join(number(value, language, digits=4) for value in (low, high))
+        reach = "".join(f"<small>{number(value, language, digits=4)}</small>" for value in (low, high))
         parts += [
-            f'<p class="slid"><label for="move{index}">{name} <small>{reach} {unit}</small></label>',
+            f'<p class="slid"><label for="move{index}" title="{html.escape(slider.key)}">{name}</label>',
             f'<input type="range" id="move{index}" data-field="{index}" {ends} step="any" value="{now!r}">',
             f'<input type="text" inputmode="decimal" data-box="{index}" aria-label="{name}, {unit}" size="7">',
-            f"<span>{unit}</span></p>",
+            f"<span>{unit}</span>{reach}</p>",
         ]
         if slider.stop is not None:
             # the first of several mistakes
