@@ -116,7 +116,7 @@ def test_values_diagrams_and_tables_stand_in_order_under_their_names(written_of,
     assert {key: value for *_, key, value, _ in rows} == wanted
     figures = dict(FIGURE.findall(text))
     assert " ".join(figures) == (
-        "kinematics brix tolle pressure indicator piston_forces rod_forces crankpin_forces torque crankpin_polar"
+        "torque kinematics brix tolle pressure indicator piston_forces rod_forces crankpin_forces crankpin_polar"
     )
     assert figures["rod_forces"] == "Force along the rod and side force"
     assert figures["torque"] == "Crank torque of one cylinder"

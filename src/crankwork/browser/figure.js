@@ -1,6 +1,7 @@
 // A diagram to read: cursor and dots, the numbers under them, zoom, curves shown and hidden by the legend.
 import { Curve } from "./curves.js";
 import { nearest, placeOf, told } from "./numbers.js";
+import { shape } from "./shape.js";
 
 /** @typedef {import("./curves.js").Plot} Plot */
 /** @typedef {import("./cursor.js").Cursor} Cursor */
@@ -8,11 +9,12 @@ import { nearest, placeOf, told } from "./numbers.js";
 
 /**
  * Graphs of a drawing, what each row of its legend tells of, names of curves, and what it shows in words; whether it
- * differs where sliders move, and cannot follow; where the cursor stands when a plan of one position is true.
- * @typedef {{plots: Plot[], legend: string[][], told?: string, filed?: boolean, at?: number}} FigureData
+ * differs where sliders move, and cannot follow; where the cursor stands when a plan of one position is true, or places of
+ * the cursor and what is drawn at each.
+ * @typedef {{plots: Plot[], legend: string[][], told?: string, filed?: boolean, at?: number, places?: number[],
+ *   shown?: string[]}} FigureData
  */
 
-const SVG = "http://www.w3.org/2000/svg";
 // from a curve, where the pointer still means it [mm]
 const NEAR = 12;
 // marks of extremes and means, which have their number beside them
@@ -49,10 +51,10 @@ export class Figure {
     this.legend();
     this.zoom();
     if (!this.moving.length) return;
-    this.layer = svg.appendChild(document.createElementNS(SVG, "g"));
-    this.layer.setAttribute("class", "cursor");
-    this.lines = data.plots.map((plot) => (plot.over ? this.mark("line", { y1: plot.box[1], y2: plot.box[1] + plot.box[3] }) : null));
-    this.dots = this.moving.map(() => this.mark("circle", { r: 1.1 }));
+    const layer = svg.appendChild(shape("g", { class: "cursor" }));
+    this.layer = layer;
+    this.lines = data.plots.map((plot) => (plot.over ? layer.appendChild(shape("line", { y1: plot.box[1], y2: plot.box[1] + plot.box[3] })) : null));
+    this.dots = this.moving.map(() => layer.appendChild(shape("circle", { r: 1.1 })));
     this.reading = document.createElement("output");
     this.reading.className = "reading";
     this.reading.hidden = true;
@@ -63,17 +65,6 @@ export class Figure {
     svg.addEventListener("focus", () => this.tell(true));
     svg.tabIndex = 0;
     cursor.follow(() => this.draw());
-  }
-
-  /**
-   * @param {string} kind
-   * @param {Record<string, number>} where
-   */
-  mark(kind, where) {
-    const made = document.createElementNS(SVG, kind);
-    for (const [name, value] of Object.entries(where)) made.setAttribute(name, String(value));
-    this.layer?.append(made);
-    return made;
   }
 
   /**

@@ -19,10 +19,11 @@ export class Frame {
     this.group = group;
     this.plot = plot;
     this.home = { x: plot.x, y: plot.y };
-    const paths = [...group.querySelectorAll("path")];
-    const isGrid = (/** @type {Element} */ one) => one.getAttribute("stroke") !== null;
-    this.grid = paths.find(isGrid);
-    this.axes = paths.find((one) => !isGrid(one));
+    /** The lines of the grid. @type {SVGPathElement | null} */
+    this.grid = null;
+    /** @type {SVGPathElement | null} */
+    this.axes = null;
+    this.find();
     this.inside = group.innerHTML;
     const texts = [...group.querySelectorAll("text")];
     this.across = texts.find((one) => one.classList.contains("dm"));
@@ -39,8 +40,12 @@ export class Frame {
     if (this.plot.x === this.home.x && this.plot.y === this.home.y) return;
     [this.plot.x, this.plot.y] = [this.home.x, this.home.y];
     this.group.innerHTML = this.inside;
-    const paths = [...this.group.querySelectorAll("path")];
-    [this.grid, this.axes] = [paths.find((one) => one.getAttribute("stroke") !== null), paths.find((one) => one.getAttribute("stroke") === null)];
+    this.find();
+  }
+
+  /** Find the lines. */
+  find() {
+    [this.grid, this.axes] = ["[stroke]", ":not([stroke])"].map((kind) => /** @type {SVGPathElement | null} */ (this.group.querySelector(`path${kind}`)));
   }
 
   /**

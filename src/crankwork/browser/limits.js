@@ -1,5 +1,6 @@
 // Where a machine that is dragged comes to its limits: links that come into line, the other way on from there, a leash.
 import { fixed } from "./numbers.js";
+import { shape } from "./shape.js";
 
 /** @typedef {import("./machine.js").Film} Film */
 /** @typedef {[number, number]} Place */
@@ -69,8 +70,7 @@ export class Limits {
    */
   show(film, dyads, frame, degrees, sense, held, at) {
     this.hide();
-    this.layer = film.svg.appendChild(document.createElementNS("http://www.w3.org/2000/svg", "g"));
-    this.layer.classList.add("limits");
+    this.layer = film.svg.appendChild(shape("g", { class: "limits" }));
     if (Math.hypot(held[0] - at[0], held[1] - at[1]) > LOOSE * film.svg.viewBox.baseVal.width) this.line([held, at], "leash");
     const change = changeNear(film, dyads, degrees);
     if (change) {
@@ -110,10 +110,7 @@ export class Limits {
    * @param {string} kind
    */
   line(points, kind) {
-    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
-    path.setAttribute("d", `M${points.map((one) => one.map((side) => side.toFixed(2)).join(" ")).join("L")}`);
-    path.setAttribute("class", kind);
-    this.layer?.append(path);
+    this.layer?.append(shape("path", { d: `M${points.map((one) => one.map((side) => side.toFixed(2)).join(" ")).join("L")}`, class: kind }));
   }
 
   hide() {

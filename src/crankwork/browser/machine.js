@@ -1,4 +1,6 @@
 // The machine as it moves, by the cursor or by itself.
+import { shape } from "./shape.js";
+
 /** @typedef {import("./cursor.js").Cursor} Cursor */
 
 /**
@@ -70,17 +72,14 @@ export class Film {
   trace() {
     const place = (/** @type {Tracks} */ { x, y }, /** @type {number} */ k) => [x, y].map((one) => (Array.isArray(one) ? one[k] : one));
     const frames = this.data.angles.map((_, k) => k);
-    this.traces = document.createElementNS("http://www.w3.org/2000/svg", "g");
-    this.traces.classList.add("traces");
+    this.traces = shape("g", { class: "traces" });
     for (const { name, tracks } of this.parts) {
       const pin = this.parts.find((one) => name.startsWith("side.rod.") && one.name === name.replace("rod", "piston"));
       if (!pin && !name.startsWith("joint.")) continue;
       const ways = pin ? [[tracks, pin.tracks], [pin.tracks, pin.tracks]] : [[tracks, tracks]];
       for (const [one, other] of ways) {
-        const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
         const points = frames.map((k) => place(one, k).map((at, side) => ((at + place(other, k)[side]) / 2).toFixed(2)).join(" "));
-        path.setAttribute("d", `M${points.join("L")}`);
-        this.traces.append(path);
+        this.traces.append(shape("path", { d: `M${points.join("L")}` }));
       }
     }
     this.svg.append(this.traces);
@@ -128,16 +127,16 @@ export function smooth(packed) {
  */
 export function choose(film, motion) {
   const { svg } = film;
-  const room = svg.parentElement?.querySelector(".controls");
-  for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (room?.querySelectorAll("[data-choice]") ?? [])) {
-    const own = svg.querySelectorAll(`[data-part^="${box.dataset.choice}"]`);
-    const show = () => own.forEach((one) => one.classList.toggle("on", box.checked));
-    box.addEventListener("change", show);
-    show();
-  }
   const [view, rate] = ["view", "rate"].map((id) => /** @type {HTMLSelectElement | null} */ (document.getElementById(id)));
-  const see = () => view && svg.setAttribute("viewBox", view.value);
-  view?.addEventListener("change", see);
+  const close = svg.getAttribute("viewBox") ?? "";
+  const boxes = /** @type {HTMLInputElement[]} */ ([...(svg.parentElement?.querySelectorAll("[data-choice]") ?? [])]);
+  const see = () => {
+    for (const { dataset, checked } of boxes) svg.querySelectorAll(`[data-part^="${dataset.choice}"]`).forEach((one) => one.classList.toggle("on", checked));
+    const some = boxes.some(({ checked }) => checked);
+    svg.querySelector('[data-part="force.scale"]')?.classList.toggle("on", some);
+    svg.setAttribute("viewBox", view?.value || (some && svg.dataset.whole) || close);
+  };
+  for (const one of [view, ...boxes]) one?.addEventListener("change", see);
   see();
   const run = () => (motion.rate = Number(rate?.value ?? 1));
   rate?.addEventListener("change", run);

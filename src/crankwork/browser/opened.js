@@ -3,7 +3,7 @@ import { bar } from "./bar.js";
 import { Cursor } from "./cursor.js";
 import { Explanation } from "./explain.js";
 import { choose, Film } from "./machine.js";
-import { columnsOf } from "./numbers.js";
+import { columnsOf, nearest } from "./numbers.js";
 import { bindMenus, bindTabs } from "./tabs.js";
 import { showTables } from "./table.js";
 
@@ -55,6 +55,15 @@ function begin(data, kind, slide) {
   for (const svg of /** @type {NodeListOf<SVGSVGElement>} */ (document.querySelectorAll("svg.drawing[data-figure]"))) {
     const own = data.figures[svg.dataset.figure ?? ""];
     if (own) figures.push(new kind(svg, own, columns, data.axis, cursor));
+    const { places, shown } = own ?? {};
+    const inside = svg.querySelector("g.moving");
+    if (places && shown && inside) {
+      let last = "";
+      cursor.follow(() => {
+        const now = shown[nearest(places, cursor.at)];
+        if (now !== last) inside.innerHTML = last = now;
+      });
+    }
   }
   const room = document.getElementById("explanation");
   const explanation = room && data.memories ? new Explanation(room, data.memories, columns, axis.symbol, cursor) : null;

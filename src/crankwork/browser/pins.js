@@ -1,6 +1,7 @@
 // Variants that were pinned: their curves dashed behind those of now, at the scales of now; what values differ by.
 import { span } from "./frame.js";
 import { printed } from "./numbers.js";
+import { shape } from "./shape.js";
 
 /** @typedef {import("./curves.js").Plot} Plot */
 
@@ -39,12 +40,12 @@ export class Ghost {
     this.curve = curve;
     this.now = now;
     this.number = number;
-    this.path = made("path", { d: curve.d, class: `ghost ghost-${number}`, "data-curve": curve.name });
+    this.path = shape("path", { d: curve.d, class: `ghost ghost-${number}`, "data-curve": curve.name });
     const [left, top, wide, tall] = now.box;
-    const room = made("svg", { x: left, y: top, width: wide, height: tall, viewBox: `${left} ${top} ${wide} ${tall}` });
+    const room = shape("svg", { x: left, y: top, width: wide, height: tall, viewBox: `${left} ${top} ${wide} ${tall}` });
     room.append(this.path);
     svg.prepend(room);
-    this.label = made("text", { class: "ghost-number" });
+    this.label = shape("text", { class: "ghost-number" });
     this.label.textContent = String(number);
     svg.append(this.label);
     // numbers stand apart from one another along the curves
@@ -81,17 +82,6 @@ export function ghostsOf(svg, pins, plots) {
     const now = plots.find(({ t }) => t[0] === curve.plot.t[0] && t[1] === curve.plot.t[1]);
     return now ? [new Ghost(svg, curve, now, k + 1)] : [];
   }));
-}
-
-/**
- * @template {"path" | "svg" | "text"} Name
- * @param {Name} name
- * @param {Record<string, string | number>} attributes
- */
-function made(name, attributes) {
-  const one = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, String(value));
-  return one;
 }
 
 /**

@@ -1,12 +1,11 @@
 // A linkage drawn with the mouse, or by keys: a chain of pins from ground to ground, the first link of which drives.
-
 import { fixed } from "./numbers.js";
+import { shape } from "./shape.js";
 
 /** @typedef {{name: string, x: number, y: number, ground?: boolean, slides?: number}} Pin */
 /** A link keeps its name as long as it is there. @typedef {{name: string, pins: string[]}} Link */
 /** What was typed of a length and a direction, as the calculation reads it. @typedef {{length?: number, angle?: number, refusal?: string}} Measured */
 
-const SPACE = "http://www.w3.org/2000/svg";
 const WIDE = 240;
 const TALL = 180;
 // from what is drawn to the edge of the paper, where that grows [mm]
@@ -55,13 +54,9 @@ export class Sketch {
     /** The pin that keys carry. @type {Pin | undefined} */
     this.carried = undefined;
     this.from = this.at;
-    this.svg = document.createElementNS(SPACE, "svg");
     /** The paper: left, top, width and height. [mm] */
     this.paper = [0, 0, WIDE, TALL];
-    this.svg.setAttribute("viewBox", this.paper.join(" "));
-    this.svg.setAttribute("class", "drawing sketch");
-    this.svg.setAttribute("role", "application");
-    this.svg.ariaLabel = words.sketch;
+    this.svg = shape("svg", { viewBox: this.paper.join(" "), class: "drawing sketch", role: "application", "aria-label": words.sketch });
     this.svg.tabIndex = 0;
     this.missing = document.createElement("output");
     this.missing.className = "missing";
@@ -430,15 +425,15 @@ export class Sketch {
     const [to, down] = this.target();
     if (this.last) lines.push(line(this.last.x, this.last.y, to, down, "next"));
     const pins = this.pins.flatMap((pin) => {
-      const circle = mark("circle", { cx: pin.x, cy: pin.y, r: 2 });
-      const name = mark("text", { x: pin.x + 3, y: pin.y - 3 });
+      const circle = shape("circle", { cx: pin.x, cy: pin.y, r: 2 });
+      const name = shape("text", { x: pin.x + 3, y: pin.y - 3 });
       name.textContent = pin.name;
-      const ground = mark("path", { d: `M${pin.x} ${pin.y}l-4 7h8z` });
-      const guide = mark("path", { d: `M${pin.x - 7} ${pin.y + 4}h14M${pin.x - 5} ${pin.y - 3}h10v6h-10z`, transform: `rotate(${-(pin.slides ?? 0)} ${pin.x} ${pin.y})` });
+      const ground = shape("path", { d: `M${pin.x} ${pin.y}l-4 7h8z` });
+      const guide = shape("path", { d: `M${pin.x - 7} ${pin.y + 4}h14M${pin.x - 5} ${pin.y - 3}h10v6h-10z`, transform: `rotate(${-(pin.slides ?? 0)} ${pin.x} ${pin.y})` });
       return [...(pin.ground ? [ground] : []), ...(pin.slides === undefined ? [] : [guide]), circle, name];
     });
     const [x, y] = this.at;
-    const cross = mark("path", { d: `M${x - 3} ${y}h6M${x} ${y - 3}v6`, class: "cross" });
+    const cross = shape("path", { d: `M${x - 3} ${y}h6M${x} ${y - 3}v6`, class: "cross" });
     this.svg.replaceChildren(...lines, ...pins, cross);
     const matrix = this.svg.getScreenCTM();
     // what is drawn from stays to be seen
@@ -454,15 +449,5 @@ export class Sketch {
  * @param {string} kind
  */
 function line(x1, y1, x2, y2, kind) {
-  return mark("line", { x1, y1, x2, y2, class: kind });
-}
-
-/**
- * @param {string} kind
- * @param {Record<string, number | string>} where
- */
-function mark(kind, where) {
-  const made = document.createElementNS(SPACE, kind);
-  for (const [name, value] of Object.entries(where)) made.setAttribute(name, String(value));
-  return made;
+  return shape("line", { x1, y1, x2, y2, class: kind });
 }

@@ -123,7 +123,12 @@ export function bindSliders(room, live, follow) {
   fields.forEach(({ slider, box, home }, k) => {
     const [low, high] = [Number(slider.min), Number(slider.max)];
     const step = 10 ** Math.floor(Math.log10((high - low) / 200));
-    const to = (/** @type {number} */ value) => move(shown.map((one, at) => (at === k ? value : one)));
+    // what is wrong is told at the field
+    const here = () => tell.parentElement !== box.parentElement && box.parentElement?.append(tell);
+    const to = (/** @type {number} */ value) => {
+      here();
+      move(shown.map((one, at) => (at === k ? value : one)));
+    };
     slider.addEventListener("input", () => {
       const value = Number((Math.round(slider.valueAsNumber / step) * step).toPrecision(12));
       to(Math.abs(value - home) < step / 2 ? home : Math.min(Math.max(value, low), high));
@@ -134,6 +139,7 @@ export function bindSliders(room, live, follow) {
         to(value);
         return;
       }
+      here();
       box.setAttribute("aria-invalid", "true");
       tell.textContent = (tell.dataset.wrong ?? "").replace("{low}", printed(low)).replace("{high}", printed(high));
     });

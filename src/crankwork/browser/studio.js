@@ -123,7 +123,7 @@ class StudioPage {
     this.tab = bindTabs(document.querySelector("[role=tablist]"));
     this.bind();
     document.documentElement.classList.add("live");
-    const now = () => this.document();
+    const now = () => ({ ...this.document(), wide: innerWidth });
     this.talk = new Talk(now, (answer, question) => this.heard(answer, question), "waits", (state) => this.answers(state));
     // what is asked for ahead keeps nobody waiting
     this.aside = new Talk(now, (answer, question) => {
@@ -540,9 +540,7 @@ class StudioPage {
       this.show();
     });
     const drawn = document.createElement("div");
-    const caption = document.createElement("figcaption");
-    caption.textContent = title;
-    made.append(close, drawn, caption);
+    made.append(close, drawn, Object.assign(document.createElement("figcaption"), { textContent: title }));
     return made;
   }
 
@@ -578,14 +576,13 @@ class StudioPage {
   /** @param {Answer} answer */
   values(answer) {
     const own = room("results");
-    const told = [...(answer.doubt ? [answer.doubt] : []), ...answer.notices];
     const [met, all] = answer.checks;
     own.innerHTML = answer.values;
     room("cards").innerHTML = answer.cards;
     const head = document.createElement("p");
     head.textContent = [answer.method, ...(all ? [`${this.words.checks} ${met}/${all}`] : [])].join(" · ");
     own.prepend(head);
-    for (const text of told.slice(0, answer.doubt ? 1 : 0)) own.prepend(Object.assign(document.createElement("p"), { className: "doubt", textContent: text }));
+    if (answer.doubt) own.prepend(Object.assign(document.createElement("p"), { className: "doubt", textContent: answer.doubt }));
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("main [data-key]"))) {
       const key = button.dataset.key ?? "";
       const pinned = this.pins[this.pins.length - 1];

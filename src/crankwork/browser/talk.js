@@ -12,7 +12,7 @@ export const UNKNOWN = 401;
 
 export class Talk {
   /**
-   * @param {() => {text: string, path: string, reads: boolean}} now what a question is asked of when it goes out
+   * @param {() => {text: string, path: string, reads: boolean, wide: number}} now what a question is asked of when it goes out
    * @param {(answer: Answer, question: Question | undefined) => void} heard
    * @param {string} name of what it says of itself at the page: whether something is under way
    * @param {(state: State) => void} [state] hears whether it is answered, each time that this changes

@@ -23,7 +23,7 @@ from crankwork.report.figures import AT_ONE_POSITION
 from crankwork.show.animation import Animation
 from crankwork.show.animation import data as moving_data
 from crankwork.show.inline import STYLE, colours, figure_data, html_symbol
-from crankwork.show.scene import ChartBox, Drawing
+from crankwork.show.scene import Drawing
 
 _ENDLESS = 1e15
 # how fast a film may run
@@ -160,12 +160,8 @@ def controls(film: Animation, language: Language) -> list[str]:
     )
     parts = [f'<div class="controls" role="group" aria-label="{words("controls", language)}">']
     if film.views:
-        boxes = [
-            (translate("page.every_view", language), ChartBox(0, 0, film.ground.width, film.ground.height)),
-            *film.views,
-        ]
-        listed = "".join(
-            f'<option value="{" ".join(f"{side:.1f}" for side in box)}">{html.escape(name)}' for name, box in boxes
+        listed = f'<option value="">{words("every_view", language)}' + "".join(
+            f'<option value="{" ".join(f"{side:.1f}" for side in box)}">{html.escape(name)}' for name, box in film.views
         )
         parts.append(f'<label>{words("view", language)} <select id="view">{listed}</select></label>')
     parts += [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import re
 from collections.abc import Container, Iterable, Iterator, Mapping
 from typing import Any
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array, Results
+from crankwork.analysis.vector_polygons import worked_position
 from crankwork.browser import script, style
 from crankwork.errors import InputError
 from crankwork.formula.calculation_lines import Explanation, FormulaLine, ValueLine, has_argument_symbol
@@ -53,12 +55,13 @@ from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import display_key, displayed, in_own_units, key_unit, label
 from crankwork.report.drawing import film_of
-from crankwork.report.figures import drawings
+from crankwork.report.figures import AT_ONE_POSITION, drawings, drawings_at
+from crankwork.report.look import figure_title, kind_of
 from crankwork.report.notices import notice_text, sentence_lists
 from crankwork.report.summary import by_subject, check_status, provenance, results_method
 from crankwork.show.animation import Animation
 from crankwork.show.canvas import SCREEN, use_layout
-from crankwork.show.inline import inline_film, inline_svg
+from crankwork.show.inline import inline_film, inline_positions, inline_svg
 from crankwork.show.scene import Drawing
 from crankwork.show.theme import alt_text
 from crankwork.sources import cite
@@ -72,7 +75,10 @@ _OF_TABS = {
     "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded",
 }
 _TABS = ("motion", "forces", "torque", "bearings", "balance")
+_FIRST = ("torque", "torques")
 _CARDS = 6
+# between positions of plans at most [deg], and how many there are at most
+_WIDEST, _MOST = 15.0, 75
 # angle at which formulas of all angles are written [deg]
 _SOMEWHERE = 33.0
 # rounding of a table, in units of the last decimal
@@ -285,6 +291,7 @@ def page(
     drawn = drawings(results, language=language) if live is None else live.drawn
     film = film_of(results, language=language, forces=True)
     data = page_data(results, drawn, film, language)
+    pictures = _positions(results, data["figures"], language, is_still=live is None)
     for name, drawing in drawn.items():
         # without script the alternative text is the title
         data["figures"][name]["told"] = alt_text(drawing)
@@ -296,6 +303,9 @@ def page(
     if live is not None:
         trace.follow(live)
         marks, steps, is_filed = follow(live, results, data)
+    figures = _figures(drawn, pictures, marks, language)
+    # beside the machine there is room for one
+    first = "" if film is None or live else next((figures.pop(name) for name in _FIRST if name in figures), "")
     title, listed = title_of(results, language), words("tables", language)
     explained = set(data["memories"]["keys"])
     parts = [
@@ -308,9 +318,9 @@ def page(
         *([] if film is None else _machine(film, language, is_filed=is_filed)),
         '<div class="side">',
         *cards(results, explained, language, live),
-        *([] if live is None or moved is None else _sliders(live, moved, language)),
+        *([first] if live is None or moved is None else _sliders(live, moved, language)),
         "</div></div>",
-        *_figures(drawn, marks, language),
+        *_panels(figures, language),
         *values(results, explained, language, live),
         f'<section id="tables"><h3>{listed}</h3><p><select aria-label="{words("choice", language)}"></select></p>',
         f'<div class="scroll" tabindex="0" role="region" aria-label="{listed}"><table></table></div></section>',
@@ -322,6 +332,30 @@ def page(
         f"<script>{steps}{script('slid' if steps else 'page')}</script></body></html>\n",
     ]
     return "\n".join(parts).encode()
+
+
+def _positions(results: Results, figures: dict[str, Any], language: Language, *, is_still: bool) -> dict[str, str]:
+    """Add what figures of one position show at others to their data; return their pictures.
+
+    `is_still`: whether no slider moves curves.
+    """
+    if AT_ONE_POSITION.isdisjoint(figures):
+        return {}
+    rows = results.grid.degrees
+    # between rows that are far apart machines move visibly
+    parts = math.ceil(max(float(np.max(np.diff(rows), initial=0.0)) / _WIDEST, 1e-9))
+    counts = np.arange(parts * (len(rows) - 1) + 1) / parts
+    worked = worked_position(results)
+    degrees = np.union1d(np.interp(counts, np.arange(len(rows)), rows)[:: math.ceil(len(counts) / _MOST)], worked)
+    pictures = {}
+    places = (degrees * (results.period / 360.0 if results.period else 1.0)).tolist()
+    names = [name for name in figures if name in AT_ONE_POSITION or (is_still and kind_of(name) == "paths")]
+    for name, drawn in drawings_at(results, degrees, language, names).items():
+        row, about = int(np.searchsorted(degrees, worked)), figure_title(name, language)
+        pictures[name], inside = inline_positions(drawn, name, about, row)
+        figures[name].pop("at", None)
+        figures[name] |= {"places": places, "shown": inside}
+    return pictures
 
 
 def _followed(live: LivePage, name: str, data: dict[str, Any]) -> list[str]:
@@ -358,18 +392,18 @@ def _sliders(live: LivePage, moved: SliderDesigns, language: Language) -> list[s
     """Return the elements of the sliders."""
     title = words("sliders", language)
     parts = [f'<section id="sliders" aria-label="{title}"><h2>{title}</h2>']
-    for index, slider in enumerate(moved.sliders):
+    names = [capital(label(key, language)) if (key := live.name(slider)) else slider.key for slider in moved.sliders]
+    for index, (slider, own) in enumerate(zip(moved.sliders, names, strict=True)):
         now, low, high = (slider.shown(value) for value in (slider.now, slider.low, slider.high))
-        key = live.name(slider)
-        name = html.escape(f"{capital(label(key, language))} ({slider.key})" if key else slider.key)
+        name = html.escape(own if names.count(own) == 1 else f"{own} ({slider.key})")
         unit = html.escape(unit_name(slider.unit, language))
         ends = f'min="{low!r}" max="{high!r}"'
-        reach = " … ".join(number(value, language, digits=4) for value in (low, high))
+        reach = "".join(f"<small>{number(value, language, digits=4)}</small>" for value in (low, high))
         parts += [
-            f'<p class="slid"><label for="move{index}">{name} <small>{reach} {unit}</small></label>',
+            f'<p class="slid"><label for="move{index}" title="{html.escape(slider.key)}">{name}</label>',
             f'<input type="range" id="move{index}" data-field="{index}" {ends} step="any" value="{now!r}">',
             f'<input type="text" inputmode="decimal" data-box="{index}" aria-label="{name}, {unit}" size="7">',
-            f"<span>{unit}</span></p>",
+            f"<span>{unit}</span>{reach}</p>",
         ]
         if slider.stop is not None:
             # the first of several mistakes
@@ -416,14 +450,24 @@ def title_of(results: Results, language: Language) -> str:
     return own or results.machine.title or "crankwork"
 
 
-def _figures(drawn: dict[str, Drawing], marks: dict[str, list[str]], language: Language) -> list[str]:
+def _figures(
+    drawn: dict[str, Drawing], pictures: Mapping[str, str], marks: dict[str, list[str]], language: Language
+) -> dict[str, str]:
+    """Return figures as elements by name."""
+    figures = {}
+    for name, drawing in drawn.items():
+        title = figure_title(name, language) if name in pictures else drawing.title
+        caption = f"<figcaption>{html.escape(capital(title))}</figcaption>"
+        picture = pictures.get(name) or inline_svg(drawing, name, title, marks.get(name, ()))
+        figures[name] = f'<figure id="figure-{name}">{picture}{caption}</figure>'
+    return figures
+
+
+def _panels(figures: dict[str, str], language: Language) -> list[str]:
     """Return the tabs, the panels of those that have figures, and the beginning of that of the values."""
     panels: dict[str, list[str]] = {tab: [] for tab in _TABS}
-    for name, drawing in drawn.items():
-        caption = f"<figcaption>{html.escape(capital(drawing.title))}</figcaption>"
-        picture = inline_svg(drawing, name, drawing.title, marks.get(name, ()))
-        tab = next((tab for tab, names in _OF_TABS.items() if re.search(names, name)), "motion")
-        panels[tab].append(f'<figure id="figure-{name}">{picture}{caption}</figure>')
+    for name, figure in figures.items():
+        panels[next((tab for tab, names in _OF_TABS.items() if re.search(names, name)), "motion")].append(figure)
     ends = {tab: f'<div class="figures">{"".join(all_)}</div></section>' for tab, all_ in panels.items() if all_}
     tabs, parts = [f'<div role="tablist" aria-label="{words("diagrams", language)}">'], ["</div>"]
     for tab, inside in (*ends.items(), ("all", "")):

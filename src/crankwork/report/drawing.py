@@ -76,6 +76,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     forces: bool = False,
     still: int | None = None,
     lengths: Sequence[Length] = (),
+    has_room: bool = True,
 ) -> Animation:
     """Return the mechanism of a machine as a drawing that moves, one cycle after the other, or to and fro.
 
@@ -83,7 +84,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     the numbers of the structure, or follow group after group where only a mechanism is known. `seconds`: time of a
     turn; `frames`: of a cycle, else as many as the eye needs; `path`: motion of the crank, that of a transient
     simulation in its own time; `forces`: whether arrows show those in pins and joints; `still`: the only frame shown;
-    `lengths`: measured there.
+    `lengths`: measured there; `has_room`: whether the paper has room for forces, which are else seen by choice.
     """
     if (frames and frames < 8) or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
@@ -96,7 +97,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     time = _time(path, seconds, language)
     if engine is not None and known is not None:
         labels = {key: marked(f"${symbol(key, language)}$") for key in FORCES}
-        sketch = engine_sketch(known, engine, labels if forces else None, still)
+        sketch = engine_sketch(known, engine, labels if forces else None, still, has_room=has_room)
         keys = [f"{labels[key]} – {label(key, language)}" for key in engine.cylinders[0].forces]
         about = [*_lengths(path.mechanism, known, language), time]
         pressures = [cylinder.pressure for cylinder in engine.cylinders if cylinder.pressure is not None]
@@ -105,13 +106,13 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
         columns = _columns(results, path.degrees, forces=forces) if results is not None else {}
         sketch = linkage_sketch(
             shape, sample_motion(path.mechanism, path.degrees), known, columns, _named_forces(columns, language), still,
-            lengths,
+            lengths, has_room=has_room,
         )  # fmt: skip
         keys = _acting(path.mechanism, shape, _named_forces(columns, language), language)
         about = [*_lengths(path.mechanism, None, language), *_members(shape, language), time]
         tinted = [item.name.removeprefix("gas.") for item in sketch.parts if item.name.startswith("gas.")]
         pressures = [columns[f"gas_pressure.{name}"] for name in tinted if f"gas_pressure.{name}" in columns]
-    return _film(sketch, path, seconds, known, "; ".join(about), keys, pressures, language)
+    return _film(sketch, path, seconds, known, "; ".join(about), keys, pressures, language, has_room=has_room)
 
 
 def film_of(
@@ -127,7 +128,9 @@ def film_of(
     if not results.machine.moves:
         return None
     try:
-        return moving_drawing(results, language=language, frames=frames, forces=forces, still=still, lengths=lengths)
+        return moving_drawing(
+            results, language=language, frames=frames, forces=forces, still=still, lengths=lengths, has_room=False
+        )
     except GeometryError:
         # a linkage that cannot turn fully has a notice that says so
         return None
@@ -240,6 +243,8 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     keys: Sequence[str],
     pressures: Sequence[Array],
     language: Language,
+    *,
+    has_room: bool,
 ) -> Animation:
     """Return a sketch on its paper, with a scale and the crank angle beneath it.
 
@@ -251,24 +256,33 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     if pressures:
         bar = [*_pressure_key(pressures, foot + _MARGIN + _ROW - _FOOT, language), *bar]
         foot += _ROW
+    rows, under = [], foot
     if sketch.force_scale:
-        texts = _scale_bar(
-            1 / sketch.force_scale, 0.3 * width, foot + _MARGIN + _ROW - _FOOT, key_unit("piston_force"), language
-        )
-        foot += _ROW
         rows = flow_rows(keys, "; ", (width - 2 * _MARGIN) / WIDER, partial(text_width, height=SMALL))
-        texts += [Text((_MARGIN, foot + 3.0 + _KEY * k), row_text, SMALL) for k, row_text in enumerate(reversed(rows))]
-        foot += _KEY * len(rows) + 3.0
-        # left out with the forces
-        below.append(part("force.scale", texts, (0.0, 0.0)))
+        foot += (_ROW + _KEY * len(rows) + 3.0) * has_room
     height = float(tall) + 2 * _MARGIN + foot
     placed = sketch.moved(np.array([width / 2, (height + foot) / 2]) - middle)
+    whole = ChartBox(0.0, 0.0, width, height)
+    if sketch.force_scale:
+        if not has_room:
+            shifts = [moving.shift for moving in placed.parts if moving.name.startswith("force.")]
+            tips = np.vstack([[(0.0, 0.0), (width, height)], *shifts])
+            low, high = tips.min(axis=0) - _AROUND, tips.max(axis=0) + _AROUND
+            under = float(low[1]) - _ROW - _KEY * len(rows) - 3.0
+            whole = ChartBox(float(low[0]), under, float(high[0] - low[0]), float(high[1]) - under)
+        texts = _scale_bar(
+            1 / sketch.force_scale, 0.3 * width, under + _MARGIN + _ROW - _FOOT, key_unit("piston_force"), language
+        )
+        texts += [Text((_MARGIN, under + _ROW + 3.0 + _KEY * k), row_text, SMALL)
+                  for k, row_text in enumerate(reversed(rows))]  # fmt: skip
+        # left out with the forces
+        below.append(part("force.scale", texts, (0.0, 0.0)))
     frames, items = len(path.degrees) - 1, (*placed.items, *bar)
     ground = Drawing(_title(machine.title if machine else "", language), language, width, height, items)
     return Animation(
         ground, (*placed.parts, *below), path.degrees, _passage(path, seconds), readouts,
         (width - _MARGIN, _MARGIN), round(frames * _STILL / (path.degrees[-1] or _TURN)) % frames if path.turns else 0,
-        path.turns, about, _views(placed, height, language), _choices(placed, language),
+        path.turns, about, _views(placed, height, language), _choices(placed, language), whole,
     )  # fmt: skip
 
 

@@ -43,12 +43,17 @@ _JOURNAL = 0.3
 
 
 def engine_sketch(
-    machine: Machine, engine: SampledEngine, forces: Mapping[str, str] | None = None, frame: int | None = None
+    machine: Machine,
+    engine: SampledEngine,
+    forces: Mapping[str, str] | None = None,
+    frame: int | None = None,
+    *,
+    has_room: bool = True,
 ) -> Sketch:
     """Return an engine as it is drawn over all its angles.
 
     `forces`: what is written at those of the first cylinder, by key, where forces are drawn on all in front; `frame`:
-    the only one that is looked at.
+    the only one that is looked at; `has_room`: whether there is room for forces.
     """
     size = sizes(machine, engine)
     scale = _scale(engine, size, _rows(engine))
@@ -61,7 +66,7 @@ def engine_sketch(
     if forces is not None:
         first, *further = drawn.fronts()
         arrows = [*forces_of(first, forces), *(arrow for cylinder in further for arrow in forces_of(cylinder, {}))]
-        side = with_forces(side, arrows, frame)
+        side = with_forces(side, arrows, frame, has_room=has_room)
     return _side_by_side([side.seen(), *rows])._replace(scale=scale, force_scale=side.force_scale)
 
 

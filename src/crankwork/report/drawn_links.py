@@ -281,11 +281,13 @@ def linkage_sketch(  # noqa: PLR0913 - a linkage, and what is shown of it
     forces: Mapping[str, str] | None = None,
     frame: int | None = None,
     lengths: Sequence[Length] = (),
+    *,
+    has_room: bool = True,
 ) -> Sketch:
     """Return a linkage as it is drawn over all its angles; `frame`: the only one that is looked at, with `lengths`.
 
     `columns`: gas of the chambers of a machine, and forces in joints where they are to be drawn, by key, shape (n,);
-    `forces`: what is written at them, by joint.
+    `forces`: what is written at them, by joint; `has_room`: whether there is room for them.
     """
     drawn, scale = scene(shape, moving, _SIZE)
     chambers = spaces(machine, shape, moving, columns or {}, RAM[0] / scale)
@@ -318,7 +320,7 @@ def linkage_sketch(  # noqa: PLR0913 - a linkage, and what is shown of it
         low, high = np.minimum(low, covered.min(axis=0) - _LETTERS), np.maximum(high, covered.max(axis=0) + _LETTERS)
     sketch = Sketch([*items, *walls, *ground(drawn)], parts, low, high, scale * UNIT)
     points = {name: point * UNIT for name, point in drawn.points.items()}
-    return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}), frame)
+    return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}), frame, has_room=has_room)
 
 
 def _text(text: str, *, slanted: bool) -> Text:

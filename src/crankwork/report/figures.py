@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -12,9 +13,9 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.compare import Comparison, comparison_key, difference_key
 from crankwork.analysis.constructions import force_laws
-from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.analysis.sampled_motion import SampledMotion, sample_motion
 from crankwork.analysis.stages import stage_diagrams
-from crankwork.analysis.vector_polygons import driver_rates, position_step
+from crankwork.analysis.vector_polygons import accelerations, driver_rates, position_step, velocities
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.locale import ErrorMessage, translate
 from crankwork.locale.numbers import number, unit_name
@@ -73,7 +74,7 @@ from crankwork.report.look import (
     quantity_of,
 )
 from crankwork.report.motion import brix, centrodes, curved_paths, has_centrodes, kinematics, path_figure, tolle
-from crankwork.report.plans import acceleration_plan, position_plans, velocity_plan
+from crankwork.report.plans import acceleration_plan, corners_of, position_plans, velocity_plan
 from crankwork.report.tables import any_nonzero, shown_names
 from crankwork.report.torque import (
     accumulated_torque,
@@ -358,14 +359,21 @@ def _plan(order: int) -> Callable[[Drawn], Drawing]:
     """Return what draws the plan of velocities, or of accelerations, at the angle that is worked."""
 
     def picture(machine: Drawn) -> Drawing:
-        reached, mechanism = machine.reached, machine.results.machine.mechanism
-        rates = driver_rates(machine.results, reached.columns)
-        moved, (first, second) = sample_motion(mechanism, reached.degrees), (float(rate[reached.row]) for rate in rates)
+        mechanism, (moved, first, second) = machine.results.machine.mechanism, _state(machine)
+        around = machine.around[order - 1] if machine.around else None
         if order == 1:
-            return velocity_plan(mechanism, moved, reached.row, first, machine.style)
-        return acceleration_plan(mechanism, moved, reached.row, first, second, machine.style)
+            return velocity_plan(mechanism, moved, 0, first, machine.style, around=around)
+        return acceleration_plan(mechanism, moved, 0, first, second, machine.style, around=around)
 
     return picture
+
+
+def _state(machine: Drawn) -> tuple[SampledMotion, float, float]:
+    """Return a linkage at the angle that is worked, and the rates of its driver there."""
+    reached = machine.reached
+    moved = sample_motion(machine.results.machine.mechanism, reached.degrees[[reached.row]])
+    first, second = (float(rate[reached.row]) for rate in driver_rates(machine.results, reached.columns))
+    return moved, first, second
 
 
 def _crankpins(machine: Drawn) -> Iterable[Diagram]:
@@ -577,6 +585,27 @@ def drawings(
     with use_numbers(link_numbers(results)):
         chosen = ((name, figure) for name, figure in diagrams(machine).items() if only is None or name in only)
         return {name: figure.picture(machine) for name, figure in chosen}
+
+
+@for_readers
+def drawings_at(
+    results: Results, degrees: Array, language: Language, only: Collection[str]
+) -> dict[str, list[Drawing | None]]:
+    """Return figures of one position by name, each at some crank angles; None where there is none. [deg]"""
+    machine = drawn_of(results, language)
+    with use_numbers(link_numbers(results)):
+        known = {name: figure for name, figure in diagrams(machine).items() if name in only}
+        mechanism, links = results.machine.mechanism, machine.style.links
+        states = list(map(_state, machine.at(degrees)))
+        plans = (
+            [velocities(mechanism, moved, 0, first, links) for moved, first, _ in states],
+            [accelerations(mechanism, moved, 0, first, second, links) for moved, first, second in states],
+        )
+        each = list(replace(machine, around=tuple(map(corners_of, plans))).at(degrees))
+        return {
+            name: [figure.picture(moved) if figure.needs(moved) else None for moved in each]
+            for name, figure in known.items()
+        }
 
 
 @for_readers

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -227,6 +227,7 @@ class Drawn:
     results: Results
     language: Language
     area: float | None  # Of the piston, by which forces are divided [m2]
+    around: tuple[Array, ...] = ()  # Corners of all plans of velocities, and of accelerations [m/s], [m/s2]
 
     @property
     def has_piston(self) -> bool:
@@ -261,6 +262,15 @@ class Drawn:
         degrees = np.union1d(_with_corners(results, degrees), worked)
         columns = without_rounding(results.columns_at(degrees), results.solved.speed)
         return Reached(degrees, columns, int(np.searchsorted(degrees, worked)), is_whole)
+
+    def at(self, degrees: Array) -> Iterator[Drawn]:
+        """Yield it at some crank angles. [deg]"""
+        every = np.union1d(self.reached.degrees, degrees)
+        columns = without_rounding(self.results.columns_at(every), self.results.solved.speed)
+        for row in np.searchsorted(every, degrees).tolist():
+            moved = replace(self)
+            vars(moved)["reached"] = Reached(every, columns, row, self.reached.is_whole)
+            yield moved
 
     @cached_property
     def _fine(self) -> tuple[Array, Mapping[str, Array]]:

@@ -95,10 +95,11 @@ class Arrow(NamedTuple):
     label: str = ""
 
 
-def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = None) -> Sketch:
+def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = None, *, has_room: bool = True) -> Sketch:
     """Return a sketch with forces upon it, and how many units of force a millimetre of them is.
 
-    `frame`: the only one that is looked at; its forces are as long as there is room, and their names clear of others.
+    `frame`: the only one that is looked at; its forces are as long as there is room, and their names clear of others;
+    `has_room`: whether the sketch reaches as far as they do.
     """
     rows = slice(None) if frame is None else slice(frame, frame + 1)
     largest = max((float(np.max(np.abs(arrow.force[rows]))) for arrow in arrows), default=0.0)
@@ -128,7 +129,7 @@ def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = Non
             # a force that is too short for its head has no name
             shown = np.abs(length) > (_HEAD if frame is None else _SHORTEST)
             parts.append(part(f"force.{arrow.name}.text", [text], ends + away, tint=shown))
-    places = np.vstack(corners)
+    places = np.vstack(corners if has_room else corners[:2])
     return sketch._replace(parts=parts, low=places.min(axis=0), high=places.max(axis=0), force_scale=scale)
 
 

@@ -17,12 +17,27 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.show.animation import Animation
 from crankwork.show.canvas import marked
 from crankwork.show.chart import true_slices
-from crankwork.show.scene import CAP_HEIGHT, Drawing, Item, LineKind, Pen, Plot, Polyline, Run, Text, pen_of, runs
+from crankwork.show.scene import (
+    CAP_HEIGHT,
+    ChartBox,
+    Drawing,
+    Item,
+    LineKind,
+    Pen,
+    Plot,
+    Polyline,
+    Run,
+    Text,
+    pen_of,
+    runs,
+)
 from crankwork.show.svg import SvgWriter, film_body
 from crankwork.show.theme import KINDS, Theme, alt_text, curve_kind, fill_colours, palette_of
 
 # deviation of a curve that is invisible on a screen [mm]
 _INVISIBLE_DEVIATION = 0.05
+# what of the margins of a film is not seen on a page [mm]
+_EDGE = 4.0
 # the same at a position that is given by its crank angle, between points of the curve [mm]
 _MISPLACED = 0.3
 _LETTERS = {10 * (index + 1): letter for index, letter in enumerate(string.ascii_lowercase)}
@@ -37,6 +52,31 @@ def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str
 
     `about`: alternative text; `marks`: a class for each item, mostly empty, by which the page finds it.
     """
+    writer = _writer(drawing)
+    written = _grouped(writer, drawing.items, marks) if marks else writer.written(drawing.items)
+    return _element(drawing, name, about or alt_text(drawing), written, writer.usual)
+
+
+def inline_positions(drawings: Sequence[Drawing | None], name: str, about: str, row: int) -> tuple[str, list[str]]:
+    """Return one of some drawings as an element that has room for each, and what of each is not in all.
+
+    A group of the element has that of its own.
+    """
+    lists = [[] if drawing is None else _each(drawing) for drawing in drawings]
+    highest = max((drawing for drawing in drawings if drawing is not None), key=lambda drawing: drawing.height)
+    steady = set.intersection(*(set(written) for written in lists if written))
+    moving = ["".join(text for text in written if text not in steady) for written in lists]
+    fixed = [text for text in lists[row] if text in steady]
+    written = [*fixed, '<g class="moving">', moving[row], "</g>"]
+    return _element(highest, name, about, written, _writer(highest).usual), moving
+
+
+def _each(drawing: Drawing) -> list[str]:
+    writer = _writer(drawing)
+    return ["".join(writer.written((item,))) for item in drawing.items]
+
+
+def _writer(drawing: Drawing) -> _InlineWriter:
     # panels have curves of the same name; their angles follow in the order of the panels
     angles = dict[str, list[Array]]()
     for plot in drawing.plots:
@@ -45,10 +85,7 @@ def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str
             angles.setdefault(curve, []).extend(column[part] for part in parts)
     heights = [round(100 * item.height / CAP_HEIGHT) for item in drawing.items if isinstance(item, Text)]
     sizes = Counter(map(_hundredths, heights))
-    usual = max(sizes, key=lambda size: sizes[size], default="3")
-    writer = _InlineWriter(drawing.height, angles, usual)
-    written = _grouped(writer, drawing.items, marks) if marks else writer.written(drawing.items)
-    return _element(drawing, name, about or alt_text(drawing), written, usual)
+    return _InlineWriter(drawing.height, angles, max(sizes, key=lambda size: sizes[size], default="3"))
 
 
 def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> Iterator[str]:
@@ -60,7 +97,11 @@ def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> 
 
 def inline_film(film: Animation, name: str) -> str:
     """Return an animation as an SVG element that is at rest until the page moves its parts."""
-    return _element(film.ground, name, film.about, film_body(film, _written))
+    drawn, height = _element(film.ground, name, film.about, film_body(film, _written)), film.ground.height
+    near = ChartBox(0.0, 0.0, film.ground.width, height).inset(*[_EDGE] * 4)
+    boxes = near, film.whole or near
+    views = [f"{box.left:.1f} {height - box.top:.1f} {box.width:.1f} {box.height:.1f}" for box in boxes]
+    return re.sub(r'viewBox="[^"]*"', f'viewBox="{views[0]}" data-whole="{views[1]}"', drawn, count=1)
 
 
 def _written(items: tuple[Item, ...], height: float) -> Iterator[str]:
@@ -83,7 +124,7 @@ class _InlineWriter(SvgWriter):
 
     def __init__(self, height: float, angles: Mapping[str, list[Array]], usual: str = "") -> None:
         super().__init__(height, palette_of("print"))
-        self._angles, self._kind, self._usual = angles, "", usual
+        self._angles, self._kind, self.usual = angles, "", usual
 
     def _invisible_deviation(self, item: Polyline) -> float:
         return _INVISIBLE_DEVIATION if item.name else super()._invisible_deviation(item)
@@ -130,7 +171,7 @@ class _InlineWriter(SvgWriter):
 
     def _sized(self, size: float) -> str:
         written = self._number(size)
-        return "" if written == self._usual else f' font-size="{written}"'
+        return "" if written == self.usual else f' font-size="{written}"'
 
     def _filled(self, fill: float | None, colour: str = "") -> str:
         return "" if fill is None else super()._filled(fill, colour)

@@ -41,6 +41,7 @@ from crankwork.report.notices import notice_text
 from crankwork.report.results_folder import workbook
 from crankwork.report.summary import results_method, warning_text
 from crankwork.show.animation import Animation
+from crankwork.show.canvas import MM, SCREEN, ChartLayout, use_layout
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
 from crankwork.show.scene import Drawing
@@ -70,6 +71,10 @@ _MOVED = 0.01
 _SAME = 1e-7
 
 
+# windows in which figures stand alone [px], and figures that stand beside other things
+_NARROW, _BESIDE = 640, ChartLayout(140 / MM)
+
+
 class Session:
     """One page of the studio; it caches the results of its last text."""
 
@@ -95,7 +100,8 @@ class Session:
             "ahead": self._ahead, "reach": self._reach, "missing": self._missing, "swap": self._swap,
         }  # fmt: skip
         try:
-            return asks[request["do"]](request)
+            with use_layout(SCREEN if request.get("wide", _NARROW) < _NARROW else _BESIDE):
+                return asks[request["do"]](request)
         except CrankworkError as error:
             return {"refusals": self._error_lines(error)}
 
