@@ -217,7 +217,7 @@ def main_keys(results: Results) -> list[str]:
 
 def _at_a_glance(material: Material) -> Iterator[Block]:
     """Yield the machine as it stands, the results that matter most, and whether the checks hold."""
-    results, words, summary = material.results, material.words, material.results.summary
+    results, words, summary = material.results, material.words, material.summary
     film = film_of(results, language=words.language) if material.options.figures else None
     lengths = link_lengths(material) if drawn(material) else []
     if film is not None and lengths:

@@ -169,7 +169,7 @@ class Material:
     @cached_property
     def summary(self) -> Mapping[str, float]:
         """Single values by key, as tables print them. [SI]"""
-        return self.results.summary if self.has_piston else summary_without_rounding(self.results)
+        return summary_without_rounding(self.results)
 
     @property
     def per_area(self) -> bool:
@@ -332,6 +332,8 @@ class Material:
             named = [(name, kind) for name, key in line.named if (kind := self.of_cycle(key)) != key]
             if named:
                 line = line._replace(named=tuple({**dict(line.named), **dict(named)}.items()))
+        elif isinstance(line, ValueLine) and not self.summary.get(line.key, line.value):
+            line = line._replace(value=0.0)
         return line._replace(key=self.of_cycle(line.key))
 
     def of_cycle(self, key: str) -> str:
