@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from crankwork.analysis.input_loads import ChamberInput, LoadInput, stated_chambers, stated_charges, stated_loads
+from crankwork.cylinders.planes import PlaneMass
 from crankwork.formula.traced_value import Input, Node, in_order
 from crankwork.locale import translate
 from crankwork.machine import Bearings, Engine, TransferTable
@@ -42,6 +43,7 @@ from crankwork.report.display import key_unit, link_label
 from crankwork.report.drawing import crank_gear_scheme
 from crankwork.report.sketch import Length
 from crankwork.report.summary import results_method
+from crankwork.units import to_si
 
 GEAR = ("rotational_speed", "angular_acceleration", "stroke", "crank_radius", "rod_length", "rod_ratio", "offset")
 _SIZES = (
@@ -459,12 +461,52 @@ def _ratios(table: TransferTable, words: Words) -> Iterator[Column]:
                 yield Column(words.titled(f"{key}.{body.name}", unit), [words.number(value) for value in values])
 
 
+def _stated_rows(material: Material) -> dict[str, tuple[Cell, ...]]:
+    """Return the rows of numbers that are given, by key."""
+    traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node) and value.key]
+    known = {
+        value.key: to_si(value.value, value.node.unit) if isinstance(value.node, Input) and value.node.unit else value.value
+        for value in traced
+    }
+    return {key: value_row(key, value, material.words, digits=material.digits) for key, value in known.items()}
+
+
 def _stated(material: Material) -> Iterator[Block]:
     """Yield the table of the numbers that are given of stages."""
-    traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node)]
-    known = {value.key: value.value for value in traced if not (isinstance(value.node, Input) and value.node.unit)}
-    rows = [value_row(key, value, material.words, digits=material.digits) for key, value in known.items() if key]
-    yield value_table("data", rows, material.words)
+    yield value_table("data", _stated_rows(material).values(), material.words)
+
+
+def _planes(material: Material) -> Iterator[Block]:
+    """Yield the task, the masses in their planes as they are given, and the other numbers that are given."""
+    words, rotor = material.words, material.machine.rotor
+    if rotor is None:
+        return
+    wanted = {(word, rotor.masses[index].name) for word, index in rotor.wanted}
+    columns = {
+        key: [_of_mass(mass, key, wanted, words) for mass in rotor.masses]
+        for key in ("mass", "reciprocating", "radius", "moment", "angle", "position")
+    }
+    columns = {key: entries for key, entries in columns.items() if any(entry != "–" for entry in entries)}
+    names = [link_label(mass.name, words.language) for mass in rotor.masses]
+    titles: list[str | Runs] = ["row", *(words.titled(f"plane_{key}") for key in columns)]
+    data = [row for key, row in _stated_rows(material).items() if not key.startswith("plane_")]
+    task = words.sentence("masses_listed", count=str(len(names)), table=Reference("t:masses"))
+    task += (" ", *words.sentence("others_listed", table=Reference("t:data"))) if data else ()
+    yield Paragraph((*task, " ", *words.sentence("masses_wanted" if wanted else "masses_left")))
+    rows = list(zip(names, *columns.values(), strict=True))
+    yield words.table("given_masses", titles, rows, "l" + "r" * len(columns), "t:masses")
+    if data:
+        yield value_table("data", data, words)
+
+
+def _of_mass(mass: PlaneMass, key: str, wanted: Collection[tuple[str, str]], words: Words) -> str:
+    """Return a value of a mass in a plane, a question mark where it is wanted."""
+    value = getattr(mass, key)
+    if value or (value is not None and key != "reciprocating"):
+        return words.shown(f"plane_{key}", value)
+    sizes = ("mass", "radius") if mass.mass or mass.radius else () if mass.sector else ("moment",)
+    is_open = (key, mass.name) in wanted or (key in sizes and ("size", mass.name) in wanted)
+    return "?" if is_open else "–"
 
 
 def _shaft(material: Material) -> Iterator[Block]:
@@ -537,9 +579,7 @@ SECTIONS = (
     Section("method", (Head("method"), _how), has("piston_displacement")),
     Section("task", (Head("task"), _shaft), has_torques),
     Section("task", (
-        Head("task"),
-        Text("rotor_task", {"count": lambda material: str(len(material.results.listings["planes"].names))}),
-    ), machine_has("rotor")),
+        Head("task"), _planes), machine_has("rotor")),
     Section("task", (Head("task"), Text("task_stages"), _stated, _method), every(machine_has("stages"), lacks(drawn))),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),

@@ -40,7 +40,7 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import RESULT_DIGITS, enough_digits, formula_box, is_exact_pi, whole_degrees
-from crankwork.note.symbols import number_box, owned_symbol, symbol_box
+from crankwork.note.symbols import OF_MASSES, number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area, key_unit
@@ -126,8 +126,13 @@ def equation_symbol(step: Line | Formula, language: Language) -> str:
     return f"{shown}{',' if '_' in shown else '_'}{name}" if name and len(name) <= _SHORT_NAME else shown
 
 
-# quantities that links, points and chambers have, whose names are any words
-OF_LINKS = frozenset(row.key for row in (*SUBJECTS["linkage"], *SUBJECTS["chambers"]))
+# quantities that links, points, chambers and masses in planes have, whose names are any words
+OF_LINKS = frozenset(
+    row.key
+    for name in ("linkage", "chambers", "balance")
+    for row in SUBJECTS[name]
+    if name != "balance" or row.key.startswith(OF_MASSES)
+)
 
 
 # loads of any bearing that are known as those of a crankpin too
@@ -406,6 +411,8 @@ def definition_box(key: str, language: Language) -> Box | None:
         return row(Upright("max"), SPACE, energy, Sign("−"), Upright("min"), SPACE, energy)
     if key == "excess_work.exact":
         return row(_tangent("max", language), Sign("−"), _tangent("min", language))
+    if kind == "plane_angle":
+        return Apply(Upright("arctg" if language == "ru" else "arctan"), Fence(row(*_of_plane(key, language))))
     if kind in _MEANS:
         share = Fraction(Upright("1"), _symbol("cycle_angle", language))
         return row(share, Upright("∫"), _over(_MEANS[kind], "crank_angle", language))
@@ -426,9 +433,17 @@ def definition_text(key: str, language: Language) -> str:
         return " − ".join(
             f"{end}({names['kinetic_energy_change']} − {inertia}·{slope}_{end})" for end in ("max", "min")
         )
+    if kind == "plane_angle":
+        up, across = (value_symbol(f"plane_moment_{axis}.{key_of(key).owner}", language) for axis in "yx")
+        return f"{'arctg' if language == 'ru' else 'arctan'}({up}/{across})"
     if kind in _MEANS:
         return f"1/{names['cycle_angle']}·∫ {names[_MEANS[kind]]} d{names['crank_angle']}"
     return ""
+
+
+def _of_plane(key: str, language: Language) -> tuple[Box, ...]:
+    up, across = (symbol_box(value_symbol(f"plane_moment_{axis}.{key_of(key).owner}", language)) for axis in "yx")
+    return up, Sign("/", "slash"), across
 
 
 # of which torque the kinetic energy takes what is beyond the mean: its mean, and the sign that it has there

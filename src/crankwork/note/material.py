@@ -60,7 +60,8 @@ ESSENTIAL = frozenset((
     "mean_total_torque", "mean_driving_torque", "mean_torque", "firing_interval", "crankpin_radial_force",
     "crankpin_tangential_force", "crankpin_load", "mean_crankpin_load", "main_journal_load", "bearing_pressure_max",
     "plane_moment", "plane_moment_x", "plane_moment_y", "plane_angle", "plane_mass", "plane_radius", "sector_angle",
-    "unbalanced_force_along", "unbalanced_force_across", "unbalanced_couple", "tractive_effort_variation",
+    "rotor_unbalance_x", "rotor_couple_x", "unbalanced_force_along", "unbalanced_force_across", "unbalanced_couple",
+    "tractive_effort_variation",
     "swaying_couple", "reciprocating_moment", "hammer_blow", "lifting_rotation", "lifting_speed",
     "order_inertia_force", "free_force", "free_moment", "counterweight_moment", "excess_work", "flywheel_inertia",
     "speed_fluctuation", "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle",
@@ -314,7 +315,7 @@ class Material:
             if mark in self._shown and not again:
                 continue
             self._shown.add(mark)
-            has_definition = self.has_piston and (not again or line.key == "excess_work.exact")
+            has_definition = (self.has_piston or _kind(line) == "plane_angle") and (not again or line.key == "excess_work.exact")
             defined = line.key if isinstance(line, ValueLine) and has_definition else ""
             area = self.area(line.key) or 0.0
             step: Line = line
