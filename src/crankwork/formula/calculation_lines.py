@@ -66,6 +66,11 @@ class FormulaLine(NamedTuple):
         """The formula as it is printed here."""
         return record(self.formula.shown) if self.tree is None else self.tree
 
+    @property
+    def written(self) -> Expression:
+        """The formula as it is printed: a symbol times itself is a square."""
+        return _squared(self.expression)
+
 
 class ValueLine(NamedTuple):
     """A value without a formula of its own: given, read from a diagram, found by a procedure, or shown before. [SI]"""
@@ -229,7 +234,7 @@ class Snapshot:
 
     def _step(self, known: TracedValue, tree: Expression, taken: dict[str, TracedValue | float]) -> FormulaLine:
         inlined = _Inlined(taken)
-        tree = _squared(simplify(inlined.tree(tree)))
+        tree = simplify(inlined.tree(tree))
         used = symbols_of(tree)
         values = {
             name: self.value(item) if isinstance(item, TracedValue) else item for name, item in inlined.taken.items()

@@ -171,7 +171,9 @@ def _notice(notice: Notice, words: Words) -> str:
         for name, value in notice.values.items()
         if isinstance(value, str)
     }
-    return notice_text(notice.code, {**notice.values, **values}, words.language)
+    text = notice_text(notice.code, {**notice.values, **values}, words.language)
+    # a note has no keys of the file
+    return text.removeprefix(f"{notice.values.get('path', '')}: ")
 
 
 def _errors(material: Material, largest_errors: dict[str, tuple[float, float]]) -> Table:

@@ -350,13 +350,15 @@ def _of_chamber(chamber: ChamberInput, material: Material) -> Iterator[str]:
     yield chamber.name
     yield ", ".join(f"{words.part(slider)} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
     keys = [f"piston_area.{owner}" for owner in chamber.owners]
-    yield "; ".join(words.number(in_display_unit(key, [results.value(key)])[0]) for key in keys)
+    yield "; ".join(words.shown(key, results.value(key), digits=material.digits) for key in keys)
     yield words.number(
         in_display_unit("clearance_volume", [results.summary.get(f"clearance_volume.{chamber.name}", 0.0)])[0]
     )
     # of gauge pressures the ambient pressure is not known
     yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0]) if chamber.ambient else "–"
-    amounts = {name: words.amount(value, unit) for name, (value, unit) in chamber.amounts.items()}
+    amounts = {
+        name: words.amount(value, unit, digits=material.digits) for name, (value, unit) in chamber.amounts.items()
+    }
     pressure = translate(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
     if chamber.delay:
         pressure = translate(
@@ -465,7 +467,9 @@ def _stated_rows(material: Material) -> dict[str, tuple[Cell, ...]]:
     """Return the rows of numbers that are given, by key."""
     traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node) and value.key]
     known = {
-        value.key: to_si(value.value, value.node.unit) if isinstance(value.node, Input) and value.node.unit else value.value
+        value.key: to_si(value.value, value.node.unit)
+        if isinstance(value.node, Input) and value.node.unit
+        else value.value
         for value in traced
     }
     return {key: value_row(key, value, material.words, digits=material.digits) for key, value in known.items()}

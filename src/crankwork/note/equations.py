@@ -50,6 +50,8 @@ from crankwork.units import UNITS, coherent_unit, from_si, to_si
 LINE_WIDTH = 33.0
 _MANY = 8
 _SHORT_NAME = 3
+# letters of the name of a point of a diagram at most
+_POINT = 2
 _OF_HARMONICS = (
     "harmonic_cosine", "harmonic_sine", "harmonic_amplitude", "harmonic_phase", "phase_sum", "total_harmonic_cosine",
     "total_harmonic_sine", "total_harmonic_amplitude", "total_harmonic_phase",
@@ -153,7 +155,8 @@ def value_symbol(key: str, language: Language) -> str:
     if base_key(kind) not in QUANTITIES:
         return kind
     shown = equation_symbol(ValueLine(kind, 0.0), language)
-    if kind in OF_LINKS and names and names[0] not in _NO_LINKS:
+    is_owned = base_key(kind) in OF_LINKS or (kind in _AT_POINTS and len("".join(names[:1])) > _POINT)
+    if is_owned and names and names[0] not in _NO_LINKS:
         return owned_symbol(kind, shown, ".".join(names), language)
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
@@ -172,7 +175,14 @@ def value_symbol(key: str, language: Language) -> str:
 
 def _symbols(step: FormulaLine, language: Language) -> dict[str, str]:
     """Return the symbols of the arguments that stand for one of several values."""
-    return {name: value_symbol(key, language) for name, key in step.named}
+    symbols = {name: value_symbol(key, language) for name, key in step.named}
+    # what a value is made of, and goes by its name, stands apart from it
+    return symbols | {name: _apart(symbols[name]) for name, key in step.named if key == step.key}
+
+
+def _apart(shown: str) -> str:
+    base, _, below = shown.partition("_")
+    return f"{base}_({below})" if below and not below.startswith("(") else shown
 
 
 def _lines(left: Box, parts: list[Box], limit: float) -> Iterator[Row]:
@@ -200,9 +210,9 @@ def _parts(step: Line | Formula, language: Language, least: int, ends: list[tupl
             yield formula_box(record(step.shown), None, language)
             return
         case FormulaLine(values=values):
-            yield formula_box(step.expression, None, language, symbols=_symbols(step, language))
+            yield formula_box(step.written, None, language, symbols=_symbols(step, language))
             digits = enough_digits(step, least)
-            yield formula_box(step.expression, values, language, digits=digits, symbols=_symbols(step, language))
+            yield formula_box(step.written, values, language, digits=digits, symbols=_symbols(step, language))
         case DelayedLine(of=column, degrees=degrees):
             yield row(symbol_box(value_symbol(column, language)), Fence(value_box(degrees, "deg", language)))
         case SumLine(terms=terms):
@@ -222,7 +232,7 @@ def _sum_of_symbols(step: SumLine, language: Language) -> Box:
 
 def formula_of(step: FormulaLine, language: Language) -> Box:
     """Return the formula of a step in symbols."""
-    return formula_box(step.expression, None, language, symbols=_symbols(step, language))
+    return formula_box(step.written, None, language, symbols=_symbols(step, language))
 
 
 def symbolic(step: Line, language: Language) -> Box | None:
@@ -317,7 +327,7 @@ def line_parts(
         printed = {name: number(value, language, digits=digits) for name, value in put_in.items()}
         shown = {**_symbols(step, language), **symbols}
         printed |= _angles(step, language)
-        parts = [text(step.expression, shown, language), text(step.expression, printed, language)]
+        parts = [text(step.written, shown, language), text(step.written, printed, language)]
     elif isinstance(step, DelayedLine):
         parts = [f"{value_symbol(step.of, language)}({value_text(step.degrees, 'deg', language)})"]
     elif isinstance(step, SumLine) and step.terms:

@@ -315,7 +315,9 @@ class Material:
             if mark in self._shown and not again:
                 continue
             self._shown.add(mark)
-            has_definition = (self.has_piston or _kind(line) == "plane_angle") and (not again or line.key == "excess_work.exact")
+            has_definition = (self.has_piston or _kind(line) == "plane_angle") and (
+                not again or line.key == "excess_work.exact"
+            )
             defined = line.key if isinstance(line, ValueLine) and has_definition else ""
             area = self.area(line.key) or 0.0
             step: Line = line
@@ -503,6 +505,12 @@ def _formula_name(line: Line) -> str:
     return line.formula.name if line.formula.source else "".join(letter for letter in line.key if not letter.isdigit())
 
 
+def _family(line: Line) -> str:
+    """Return what lines of one formula share, of arithmetic in place how it is written."""
+    in_place = isinstance(line, FormulaLine) and not line.formula.source
+    return str(line.expression) if isinstance(line, FormulaLine) and in_place else _formula_name(line)
+
+
 def _first(lines: list[Line], *, by_part: bool = False) -> Iterator[Line]:
     """Yield the first line of each formula that is not zero, and for each quantity the first value without one.
 
@@ -512,7 +520,7 @@ def _first(lines: list[Line], *, by_part: bool = False) -> Iterator[Line]:
     for line in lines:
         kind, owner = key_of(line.key)
         part = "".join(letter for letter in owner if letter.isalpha()) if by_part else ""
-        mark = (_formula_name(line), kind, part)
+        mark = (_family(line), kind, part)
         if mark not in first or (line.value and not first[mark].value):
             first[mark] = line
     yield from first.values()

@@ -185,7 +185,8 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
         case TitlePage():
             yield _title_page(block, note)
         case Bibliography():
-            yield "#enum(spacing: 0.6em, " + ", ".join(typst_string(cite(key)) for key in numbers.sources) + ")"
+            listed = ", ".join(typst_string(cite(key)) for key in numbers.sources)
+            yield f"#[#set text(size: 10pt)\n#enum(spacing: 0.45em, {listed})]"
 
 
 def _runs(runs: Runs, numbers: Numbering) -> str:

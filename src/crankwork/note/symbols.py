@@ -48,7 +48,16 @@ _OF_PARTS = ("heat_share", "stage_pressure_ratio", "stage_flow", "stage_power", 
              "rotor_unbalance", "rotor_unbalance_x", "rotor_unbalance_y", "rotor_couple", "rotor_couple_x",
              "rotor_couple_y", "plane_position")  # fmt: skip
 # what belongs to masses in planes of a shaft
-OF_MASSES = ("plane_", "sector_", "reciprocating_moment", "hammer_blow", "lifting_", "rail_load", "rotor_", "secondary_")
+OF_MASSES = (
+    "plane_",
+    "sector_",
+    "reciprocating_moment",
+    "hammer_blow",
+    "lifting_",
+    "rail_load",
+    "rotor_",
+    "secondary_",
+)
 _WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 _NUMBER = re.compile(r"(?P<sign>−?)(?:(?P<mantissa>[\d.,]+)(?:·|$))?(?:10(?P<exponent>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+))?")
 _LEVEL = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")

@@ -710,7 +710,9 @@ def _along_shaft(  # noqa: PLR0913 - where, and what of
     x, y = (float(z.min()) - spare, float(z.max()) + spare), (low - 0.1 * (high - low), high + 0.1 * (high - low))
     graph = Graph(paper, box, x, y, machine.language)
     graph.frame(round_ticks(*x, 4), round_ticks(*y, 4))
-    ends = [(graph.point(place, 0.0), graph.point(place, end)) for place, end in zip(z.tolist(), up.tolist(), strict=True)]
+    ends = [
+        (graph.point(place, 0.0), graph.point(place, end)) for place, end in zip(z.tolist(), up.tolist(), strict=True)
+    ]
     paper.segments(np.array([(*graph.point(float(z.min()), 0.0), *graph.point(float(z.max()), 0.0))]), width=1.8)
     for foot, head in ends:
         paper.segments(np.array([(*foot, *head)]), width=0.9)
