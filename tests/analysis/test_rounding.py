@@ -94,3 +94,19 @@ def test_an_extreme_that_is_nothing_beside_its_column_is_printed_as_nothing():
     assert 0 < results.summary["static_torque_min"] < 1e-11
     assert summary_without_rounding(results)["static_torque_min"] == 0
     assert summary_without_rounding(results)["static_torque_max"] == results.summary["static_torque_max"] > 100
+
+
+def test_orders_that_cancel_among_three_cranks_are_nothing_and_the_sixth_is_something():
+    pump = crankwork.analyse(crankwork.read(EXAMPLES / "triplex-pump.toml"))
+    assert 0 < pump.summary["free_force.2"] < 1e-9
+    assert not any(value for key, value in summary_without_rounding(pump).items() if key.startswith("free_force."))
+    assert summary_without_rounding(pump)["shaking_force_max"] == pump.summary["shaking_force_max"] > 1e-3
+
+
+def test_an_engine_without_gas_has_no_excess_work_but_that_of_its_inertia():
+    file = "crank = { radius = '43 mm', speed = '5600 rpm' }\nrod = { length = '150 mm', mass = '0.6 kg' }\n"
+    engine = crankwork.Description(file + "piston.mass = '0.45 kg'\nengine = { layout = 'inline', cylinders = 4 }")
+    results = crankwork.analyse(engine.machine(["rod.small_end_share=0.27", "engine.firing_order=[1, 3, 4, 2]"]))
+    assert 0 < results.summary["excess_work"] < 1e-9
+    printed = summary_without_rounding(results)
+    assert printed["excess_work"] == 0 < 100 < printed["excess_work.mertsalov"]

@@ -14,6 +14,7 @@ import pytest
 
 from crankwork.analysis import Results
 from crankwork.analysis.all_cylinders import with_engine_results
+from crankwork.analysis.rounding_noise import summary_without_rounding
 from crankwork.formula.calculation_lines import FormulaLine, Snapshot
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import Piecewise, ProcedureValue, in_order
@@ -181,7 +182,7 @@ def is_same(value: float, step: FormulaLine) -> bool:
 
 def not_held(results: Results, note: Note) -> set[str]:
     """Return the quantities of which an equation prints a number that the results do not hold."""
-    at, known, found = moments(results), defaultdict(list), set()
+    at, known, found, printed = moments(results), defaultdict(list), set(), summary_without_rounding(results)
     for one in traced(results):
         known[one.key].append(one)
     rows = defaultdict(list)
@@ -193,7 +194,7 @@ def not_held(results: Results, note: Note) -> set[str]:
         # numbers of vector equations are those of a plan, which tests of these hold
         if not hasattr(step, "value") or block.printed is not None:
             continue
-        held = [results.summary.get(step.key, math.nan), *rows[base_key(step.key)]]
+        held = [*(summary.get(step.key, math.nan) for summary in (results.summary, printed)), *rows[base_key(step.key)]]
         # a cylinder with an articulated rod has a mark in its lines
         names = (step.key, step.key.rpartition(".")[0])
         kept = [one for name in names if name for one in known.get(name, ())]

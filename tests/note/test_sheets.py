@@ -312,6 +312,17 @@ def test_no_diagram_of_an_engine_is_left_small(drawn):
         assert circle[0, 0] - over_volume.box.left == pytest.approx(np.min(volume) / unit, abs=0.1), name
 
 
+def test_headings_of_a_small_sheet_have_one_size_and_those_side_by_side_stand_on_one_line():
+    paper = Paper("A3", block=None)
+    found = drawn_sheets(results("press-geometry"), "en", paper=paper)
+    headings = [[text for text in texts(one.drawing) if text.height > 4] for sheet in found for one in sheet.figures]
+    assert {text.height for rows in headings for text in rows} == {5.0}
+    pairs = [sheet.figures for sheet in found if len(sheet.figures) == 2]
+    beside = [(a, b) for a, b in pairs if a.ink.right < b.ink.left]
+    assert beside
+    assert all(abs(a.ink.top - b.ink.top) < 2 for a, b in beside)
+
+
 @pytest.mark.slow
 def test_plans_say_whether_they_share_a_scale():
     """Those of a boom that starts and stops do not, those of a press do."""

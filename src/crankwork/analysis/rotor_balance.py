@@ -274,10 +274,11 @@ class _Shaft:
                 if rotor.has_speed:
                     values[f"rail_load_max.{name}"] = load + values[f"hammer_blow.{name}"]
                     values[f"rail_load_min.{name}"] = load - values[f"hammer_blow.{name}"]
-                values[f"lifting_rotation.{name}"] = planes.lifting_rotation(load, size)
+                key = f"lifting_rotation.{name}"
+                values[key] = planes.lifting_rotation(load, size).named(key)
                 if wheel[0] is not None:
                     diameter = given("wheel_diameter", wheel[0], _ROLLING["wheel_diameter"])
-                    values[f"lifting_speed.{name}"] = values[f"lifting_rotation.{name}"] * (diameter / 2)
+                    values[f"lifting_speed.{name}"] = values[key] * (diameter / 2)
             self.summary |= {key: value.named(key) for key, value in values.items()}
 
     def listing(self) -> Listing:

@@ -18,11 +18,15 @@ _ACCELERATIONS = ("link_angular_acceleration", "driver_angular_acceleration")
 _FORCES = (
     "joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force", "tooth_force", "separating_force",
     "driver_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "main_journal_load",
+    "free_force",
 )  # fmt: skip
 # torques, sized also by forces times distances
 _TORQUES = (
     "static_torque", "balancing_torque", "driving_torque", "driver_torque", "normal_moment", "kinetic_energy_change",
+    "total_torque", "excess_work", "shaking_moment_amplitude",
 )  # fmt: skip
+# single values that are no extremes of a column, and may be what is left of terms that cancel
+_LEFT = ("free_force", "excess_work", "shaking_moment_amplitude")
 # quantities that are sized together
 _SIZED_TOGETHER = (
     _PLACES,
@@ -47,14 +51,15 @@ def without_rounding(columns: Mapping[str, Array], speed: float) -> dict[str, Ar
 
 
 def summary_without_rounding(results: Results) -> dict[str, float]:
-    """Return the single values; extremes that are negligible against their column or its quantity are zero."""
-    limits = rounding_of_extremes(results)
+    """Return the single values; what is negligible against its column or the size of its quantity is zero."""
+    limits = rounding_of_values(results)
     return {key: 0.0 if abs(value) <= limits.get(key, 0.0) else value for key, value in results.summary.items()}
 
 
-def rounding_of_extremes(results: Results) -> dict[str, float]:
-    """Return the size of rounding of the extremes of columns by key."""
-    summary, sizes, values = results.summary, _sizes(results.columns, results.machine.speed), dict[str, float]()
+def rounding_of_values(results: Results) -> dict[str, float]:
+    """Return the size of rounding of single values by key: extremes of columns, and what is left of sums."""
+    summary, sizes = results.summary, _sizes(results.columns, results.machine.speed)
+    values = {key: _ROUNDING * sizes[kind] for key in summary if (kind := key_of(key).quantity) in _LEFT}
     for column in results.columns:
         ends = [key for end in ("_max", "_min") if (key := key_of(column).derived(end)) in summary]
         size = max([sizes.get(key_of(column).quantity, 0.0), *(abs(summary[key]) for key in ends)])

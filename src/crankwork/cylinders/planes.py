@@ -90,7 +90,7 @@ def lifting_rotation(P_w: Value, Q_u: Value) -> Value:
 @formula("plane_moment", "kolchin_demidov_2008, ch. 8")
 def sector_moment(rho_s: Value, b_s: Value, R_o: Value, R_i: Value, z_s: Value, alpha_s: Value) -> Value:
     """Mass moment of counterweights that are sectors of a ring, about the axis of the ring."""
-    return 2 / 3 * z_s * rho_s * b_s * (R_o**3 - R_i**3) * np.sin(alpha_s / 2)
+    return 2 * z_s * rho_s * b_s * (R_o**3 - R_i**3) * np.sin(alpha_s / 2) / 3
 
 
 @formula("sector_angle", "kolchin_demidov_2008, ch. 8")

@@ -66,6 +66,11 @@ class FormulaLine(NamedTuple):
         """The formula as it is printed here."""
         return record(self.formula.shown) if self.tree is None else self.tree
 
+    @property
+    def written(self) -> Expression:
+        """The formula as it is printed: a symbol times itself is a square."""
+        return _squared(self.expression)
+
 
 class ValueLine(NamedTuple):
     """A value without a formula of its own: given, read from a diagram, found by a procedure, or shown before. [SI]"""
@@ -344,8 +349,23 @@ class _Inlined:
             # no argument gives a symbol here
             operand = operand.named(f"crank_{operand.node.function}")
         name = _OF_ORDER.get((name, getattr(operand.node, "multiple", 0)), name)
+        if name not in ARGUMENTS and operand.key:
+            # in arithmetic written out one value has one symbol
+            name = next((other for other, item in self.taken.items() if item is operand), name)
         self.taken[name] = operand
         return Symbol(name)
+
+
+def _squared(tree: Expression) -> Expression:
+    """Return a tree in which a symbol that is multiplied by itself is a square."""
+    match tree:
+        case Operation(operator.mul, (Operation(operator.mul, (factor, Symbol(name))), Symbol(other))) if name == other:
+            return Operation(operator.mul, (_squared(factor), Operation(operator.pow, (Symbol(name), Number(2.0)))))
+        case Operation(operator.mul, (Symbol(name), Symbol(other))) if name == other:
+            return Operation(operator.pow, (Symbol(name), Number(2.0)))
+        case Operation(function, operands):
+            return Operation(function, tuple(map(_squared, operands)))
+    return tree
 
 
 # the first two orders are written out, where books write cos and cos 2

@@ -173,7 +173,9 @@ def _notice(notice: Notice, words: Words) -> str:
         for name, value in notice.values.items()
         if isinstance(value, str)
     }
-    return notice_text(notice.code, {**notice.values, **values}, words.language)
+    text = notice_text(notice.code, {**notice.values, **values}, words.language)
+    # a note has no keys of the file
+    return text.removeprefix(f"{notice.values.get('path', '')}: ")
 
 
 def _errors(material: Material, largest_errors: dict[str, tuple[float, float]]) -> Table:
@@ -219,7 +221,7 @@ def main_keys(results: Results) -> list[str]:
 
 def _at_a_glance(material: Material) -> Iterator[Block]:
     """Yield the machine as it stands, the results that matter most, and whether the checks hold."""
-    results, words, summary = material.results, material.words, material.results.summary
+    results, words, summary = material.results, material.words, material.summary
     film = film_of(results, language=words.language) if material.options.figures else None
     lengths = link_lengths(material) if drawn(material) else []
     if film is not None and lengths:

@@ -205,7 +205,7 @@ _WEAR: tuple[Part, ...] = (
 
 def _orders(material: Material) -> Iterator[Block]:
     """Yield the table of the free forces of each order."""
-    words, summary = material.words, material.results.summary
+    words, summary = material.words, material.summary
     orders = named(summary, "free_force")
     yield words.paragraph("free_forces", table=Reference("t:orders"))
     kinds = [kind for kind in ("free_force", "shaking_moment_amplitude") if named(summary, kind)]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from crankwork.analysis.input_loads import ChamberInput, LoadInput, stated_chambers, stated_charges, stated_loads
+from crankwork.cylinders.planes import PlaneMass
 from crankwork.formula.traced_value import Input, Node, in_order
 from crankwork.locale import translate
 from crankwork.machine import Bearings, Engine, TransferTable
@@ -42,7 +43,7 @@ from crankwork.report.display import key_unit, link_label
 from crankwork.report.drawing import crank_gear_scheme
 from crankwork.report.sketch import Length
 from crankwork.report.summary import results_method
-from crankwork.units import UNITS
+from crankwork.units import to_si
 
 GEAR = ("rotational_speed", "angular_acceleration", "stroke", "crank_radius", "rod_length", "rod_ratio", "offset")
 _SIZES = (
@@ -349,13 +350,15 @@ def _of_chamber(chamber: ChamberInput, material: Material) -> Iterator[str]:
     yield chamber.name
     yield ", ".join(f"{words.part(slider)} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
     keys = [f"piston_area.{owner}" for owner in chamber.owners]
-    yield "; ".join(words.number(in_display_unit(key, [results.value(key)])[0]) for key in keys)
+    yield "; ".join(words.shown(key, results.value(key), digits=material.digits) for key in keys)
     yield words.number(
         in_display_unit("clearance_volume", [results.summary.get(f"clearance_volume.{chamber.name}", 0.0)])[0]
     )
     # of gauge pressures the ambient pressure is not known
     yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0]) if chamber.ambient else "–"
-    amounts = {name: words.amount(value, unit) for name, (value, unit) in chamber.amounts.items()}
+    amounts = {
+        name: words.amount(value, unit, digits=material.digits) for name, (value, unit) in chamber.amounts.items()
+    }
     pressure = translate(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
     if chamber.delay:
         pressure = translate(
@@ -464,13 +467,54 @@ def _ratios(table: TransferTable, words: Words) -> Iterator[Column]:
 _TABULAR = ("test", "clutch")
 
 
+def _stated_rows(material: Material) -> dict[str, tuple[Cell, ...]]:
+    """Return the rows of numbers that are given, by key."""
+    traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node) and value.key]
+    known = {
+        value.key: to_si(value.value, value.node.unit)
+        if isinstance(value.node, Input) and value.node.unit
+        else value.value
+        for value in traced
+    }
+    return {key: value_row(key, value, material.words, digits=material.digits) for key, value in known.items()}
+
+
 def _stated(material: Material) -> Iterator[Block]:
     """Yield the table of the numbers that are given of stages."""
-    traced = [value for value in in_order(material.results.trace.values()) if _is_stated(value.node)]
-    units = {value.key: value.node.unit for value in traced if isinstance(value.node, Input) and value.node.unit}
-    known = {value.key: value.value * (UNITS[units[value.key]].factor if value.key in units else 1) for value in traced}
-    rows = [value_row(key, value, material.words, digits=material.digits) for key, value in known.items() if key]
-    yield value_table("data", rows, material.words)
+    yield value_table("data", _stated_rows(material).values(), material.words)
+
+
+def _planes(material: Material) -> Iterator[Block]:
+    """Yield the task, the masses in their planes as they are given, and the other numbers that are given."""
+    words, rotor = material.words, material.machine.rotor
+    if rotor is None:
+        return
+    wanted = {(word, rotor.masses[index].name) for word, index in rotor.wanted}
+    columns = {
+        key: [_of_mass(mass, key, wanted, words) for mass in rotor.masses]
+        for key in ("mass", "reciprocating", "radius", "moment", "angle", "position")
+    }
+    columns = {key: entries for key, entries in columns.items() if any(entry != "–" for entry in entries)}
+    names = [link_label(mass.name, words.language) for mass in rotor.masses]
+    titles: list[str | Runs] = ["row", *(words.titled(f"plane_{key}") for key in columns)]
+    data = [row for key, row in _stated_rows(material).items() if not key.startswith("plane_")]
+    task = words.sentence("masses_listed", count=str(len(names)), table=Reference("t:masses"))
+    task += (" ", *words.sentence("others_listed", table=Reference("t:data"))) if data else ()
+    yield Paragraph((*task, " ", *words.sentence("masses_wanted" if wanted else "masses_left")))
+    rows = list(zip(names, *columns.values(), strict=True))
+    yield words.table("given_masses", titles, rows, "l" + "r" * len(columns), "t:masses")
+    if data:
+        yield value_table("data", data, words)
+
+
+def _of_mass(mass: PlaneMass, key: str, wanted: Collection[tuple[str, str]], words: Words) -> str:
+    """Return a value of a mass in a plane, a question mark where it is wanted."""
+    value = getattr(mass, key)
+    if value or (value is not None and key != "reciprocating"):
+        return words.shown(f"plane_{key}", value)
+    sizes = ("mass", "radius") if mass.mass or mass.radius else () if mass.sector else ("moment",)
+    is_open = (key, mass.name) in wanted or (key in sizes and ("size", mass.name) in wanted)
+    return "?" if is_open else "–"
 
 
 def _shaft(material: Material) -> Iterator[Block]:
@@ -542,10 +586,7 @@ SECTIONS = (
     ), has("piston_displacement")),
     Section("method", (Head("method"), _how), has("piston_displacement")),
     Section("task", (Head("task"), _shaft), has_torques),
-    Section("task", (
-        Head("task"),
-        Text("rotor_task", {"count": lambda material: str(len(material.results.listings["planes"].names))}),
-    ), machine_has("rotor")),
+    Section("task", (Head("task"), _planes), machine_has("rotor")),
     Section("task", (Head("task"), Text("task_given"), _stated), lambda material: material.machine.alone in _TABULAR),
     Section("task", (Head("task"), Text("task_stages"), _stated, _method), every(machine_has("stages"), lacks(drawn))),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),

@@ -40,7 +40,7 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import RESULT_DIGITS, enough_digits, formula_box, is_exact_pi, whole_degrees
-from crankwork.note.symbols import number_box, owned_symbol, symbol_box
+from crankwork.note.symbols import OF_MASSES, number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area, key_unit
@@ -50,6 +50,8 @@ from crankwork.units import UNITS, coherent_unit, from_si, to_si
 LINE_WIDTH = 33.0
 _MANY = 8
 _SHORT_NAME = 3
+# letters of the name of a point of a diagram at most
+_POINT = 2
 _OF_HARMONICS = (
     "harmonic_cosine", "harmonic_sine", "harmonic_amplitude", "harmonic_phase", "phase_sum", "total_harmonic_cosine",
     "total_harmonic_sine", "total_harmonic_amplitude", "total_harmonic_phase",
@@ -126,8 +128,13 @@ def equation_symbol(step: Line | Formula, language: Language) -> str:
     return f"{shown}{',' if '_' in shown else '_'}{name}" if name and len(name) <= _SHORT_NAME else shown
 
 
-# quantities that links, points and chambers have, whose names are any words
-OF_LINKS = frozenset(row.key for row in (*SUBJECTS["linkage"], *SUBJECTS["chambers"]))
+# quantities that links, points, chambers and masses in planes have, whose names are any words
+OF_LINKS = frozenset(
+    row.key
+    for name in ("linkage", "chambers", "balance")
+    for row in SUBJECTS[name]
+    if name != "balance" or row.key.startswith(OF_MASSES)
+)
 
 
 # loads of any bearing that are known as those of a crankpin too
@@ -148,7 +155,8 @@ def value_symbol(key: str, language: Language) -> str:
     if base_key(kind) not in QUANTITIES:
         return kind
     shown = equation_symbol(ValueLine(kind, 0.0), language)
-    if kind in OF_LINKS and names and names[0] not in _NO_LINKS:
+    is_owned = base_key(kind) in OF_LINKS or (kind in _AT_POINTS and len("".join(names[:1])) > _POINT)
+    if is_owned and names and names[0] not in _NO_LINKS:
         return owned_symbol(kind, shown, ".".join(names), language)
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
@@ -167,7 +175,14 @@ def value_symbol(key: str, language: Language) -> str:
 
 def _symbols(step: FormulaLine, language: Language) -> dict[str, str]:
     """Return the symbols of the arguments that stand for one of several values."""
-    return {name: value_symbol(key, language) for name, key in step.named}
+    symbols = {name: value_symbol(key, language) for name, key in step.named}
+    # what a value is made of, and goes by its name, stands apart from it
+    return symbols | {name: _apart(symbols[name]) for name, key in step.named if key == step.key}
+
+
+def _apart(shown: str) -> str:
+    base, _, below = shown.partition("_")
+    return f"{base}_({below})" if below and not below.startswith("(") else shown
 
 
 def _lines(left: Box, parts: list[Box], limit: float) -> Iterator[Row]:
@@ -195,9 +210,9 @@ def _parts(step: Line | Formula, language: Language, least: int, ends: list[tupl
             yield formula_box(record(step.shown), None, language)
             return
         case FormulaLine(values=values):
-            yield formula_box(step.expression, None, language, symbols=_symbols(step, language))
+            yield formula_box(step.written, None, language, symbols=_symbols(step, language))
             digits = enough_digits(step, least)
-            yield formula_box(step.expression, values, language, digits=digits, symbols=_symbols(step, language))
+            yield formula_box(step.written, values, language, digits=digits, symbols=_symbols(step, language))
         case DelayedLine(of=column, degrees=degrees):
             yield row(symbol_box(value_symbol(column, language)), Fence(value_box(degrees, "deg", language)))
         case SumLine(terms=terms):
@@ -217,7 +232,7 @@ def _sum_of_symbols(step: SumLine, language: Language) -> Box:
 
 def formula_of(step: FormulaLine, language: Language) -> Box:
     """Return the formula of a step in symbols."""
-    return formula_box(step.expression, None, language, symbols=_symbols(step, language))
+    return formula_box(step.written, None, language, symbols=_symbols(step, language))
 
 
 def symbolic(step: Line, language: Language) -> Box | None:
@@ -312,7 +327,7 @@ def line_parts(
         printed = {name: number(value, language, digits=digits) for name, value in put_in.items()}
         shown = {**_symbols(step, language), **symbols}
         printed |= _angles(step, language)
-        parts = [text(step.expression, shown, language), text(step.expression, printed, language)]
+        parts = [text(step.written, shown, language), text(step.written, printed, language)]
     elif isinstance(step, DelayedLine):
         parts = [f"{value_symbol(step.of, language)}({value_text(step.degrees, 'deg', language)})"]
     elif isinstance(step, SumLine) and step.terms:
@@ -406,6 +421,8 @@ def definition_box(key: str, language: Language) -> Box | None:
         return row(Upright("max"), SPACE, energy, Sign("−"), Upright("min"), SPACE, energy)
     if key == "excess_work.exact":
         return row(_tangent("max", language), Sign("−"), _tangent("min", language))
+    if kind == "plane_angle":
+        return Apply(Upright("arctg" if language == "ru" else "arctan"), Fence(row(*_of_plane(key, language))))
     if kind in _MEANS:
         share = Fraction(Upright("1"), _symbol("cycle_angle", language))
         return row(share, Upright("∫"), _over(_MEANS[kind], "crank_angle", language))
@@ -426,9 +443,17 @@ def definition_text(key: str, language: Language) -> str:
         return " − ".join(
             f"{end}({names['kinetic_energy_change']} − {inertia}·{slope}_{end})" for end in ("max", "min")
         )
+    if kind == "plane_angle":
+        up, across = (value_symbol(f"plane_moment_{axis}.{key_of(key).owner}", language) for axis in "yx")
+        return f"{'arctg' if language == 'ru' else 'arctan'}({up}/{across})"
     if kind in _MEANS:
         return f"1/{names['cycle_angle']}·∫ {names[_MEANS[kind]]} d{names['crank_angle']}"
     return ""
+
+
+def _of_plane(key: str, language: Language) -> tuple[Box, ...]:
+    up, across = (symbol_box(value_symbol(f"plane_moment_{axis}.{key_of(key).owner}", language)) for axis in "yx")
+    return up, Sign("/", "slash"), across
 
 
 # of which torque the kinetic energy takes what is beyond the mean: its mean, and the sign that it has there

@@ -403,7 +403,7 @@ def _values(name: str, material: Material) -> Iterator[str]:
     words, summary = material.words, material.results.summary
     for key in _SINGLE:
         value = summary.get(f"{key}.{name}", math.nan)
-        yield words.number(in_display_unit(key.removesuffix("_max"), [value])[0])
+        yield words.number(in_display_unit(key.removesuffix("_max"), [value])[0], digits=material.digits)
 
 
 def _is_absolute(material: Material) -> bool:

@@ -60,7 +60,8 @@ ESSENTIAL = frozenset((
     "mean_total_torque", "mean_driving_torque", "mean_torque", "firing_interval", "crankpin_radial_force",
     "crankpin_tangential_force", "crankpin_load", "mean_crankpin_load", "main_journal_load", "bearing_pressure_max",
     "plane_moment", "plane_moment_x", "plane_moment_y", "plane_angle", "plane_mass", "plane_radius", "sector_angle",
-    "unbalanced_force_along", "unbalanced_force_across", "unbalanced_couple", "tractive_effort_variation",
+    "rotor_unbalance_x", "rotor_couple_x", "unbalanced_force_along", "unbalanced_force_across", "unbalanced_couple",
+    "tractive_effort_variation",
     "swaying_couple", "reciprocating_moment", "hammer_blow", "lifting_rotation", "lifting_speed",
     "order_inertia_force", "free_force", "free_moment", "counterweight_moment", "excess_work", "flywheel_inertia",
     "speed_fluctuation", "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle",
@@ -169,7 +170,7 @@ class Material:
     @cached_property
     def summary(self) -> Mapping[str, float]:
         """Single values by key, as tables print them. [SI]"""
-        return self.results.summary if self.has_piston else summary_without_rounding(self.results)
+        return summary_without_rounding(self.results)
 
     @property
     def per_area(self) -> bool:
@@ -314,7 +315,9 @@ class Material:
             if mark in self._shown and not again:
                 continue
             self._shown.add(mark)
-            has_definition = self.has_piston and (not again or line.key == "excess_work.exact")
+            has_definition = (self.has_piston or _kind(line) == "plane_angle") and (
+                not again or line.key == "excess_work.exact"
+            )
             defined = line.key if isinstance(line, ValueLine) and has_definition else ""
             area = self.area(line.key) or 0.0
             step: Line = line
@@ -332,6 +335,8 @@ class Material:
             named = [(name, kind) for name, key in line.named if (kind := self.of_cycle(key)) != key]
             if named:
                 line = line._replace(named=tuple({**dict(line.named), **dict(named)}.items()))
+        elif isinstance(line, ValueLine) and not self.summary.get(line.key, line.value):
+            line = line._replace(value=0.0)
         return line._replace(key=self.of_cycle(line.key))
 
     def of_cycle(self, key: str) -> str:
@@ -500,6 +505,12 @@ def _formula_name(line: Line) -> str:
     return line.formula.name if line.formula.source else "".join(letter for letter in line.key if not letter.isdigit())
 
 
+def _family(line: Line) -> str:
+    """Return what lines of one formula share, of arithmetic in place how it is written."""
+    in_place = isinstance(line, FormulaLine) and not line.formula.source
+    return str(line.expression) if isinstance(line, FormulaLine) and in_place else _formula_name(line)
+
+
 def _first(lines: list[Line], *, by_part: bool = False) -> Iterator[Line]:
     """Yield the first line of each formula that is not zero, and for each quantity the first value without one.
 
@@ -509,7 +520,7 @@ def _first(lines: list[Line], *, by_part: bool = False) -> Iterator[Line]:
     for line in lines:
         kind, owner = key_of(line.key)
         part = "".join(letter for letter in owner if letter.isalpha()) if by_part else ""
-        mark = (_formula_name(line), kind, part)
+        mark = (_family(line), kind, part)
         if mark not in first or (line.value and not first[mark].value):
             first[mark] = line
     yield from first.values()

@@ -37,6 +37,8 @@ from crankwork.sources import school_source, source_language, sources
 PAGE, _LITTLE, _EMPTY = 728.0, 60.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
+# height of the caption of a figure [pt], by what share its height may be wrong, what share of its size it keeps
+_CAPTION, _SPARE, _SMALLEST = 36.0, 0.02, 0.8
 # rows of a table that stays on one page with its caption, and the list of symbols, which may be divided anywhere
 TOGETHER, _DIVIDED = 20, "t:nomenclature"
 
@@ -154,6 +156,12 @@ def _runs(block: Block) -> Iterator[Run]:
                 yield from heading
 
 
+def leads(block: Block) -> bool:
+    """Return whether a block is a line that leads to an equation, and does not stand alone at the foot of a page."""
+    last = block.runs[-1] if isinstance(block, Paragraph) and block.runs else ""
+    return isinstance(last, str) and last.endswith(":")
+
+
 def is_whole(block: Block) -> bool:
     """Return whether a block stands on one page, and may wait for it."""
     if isinstance(block, Table):
@@ -161,11 +169,15 @@ def is_whole(block: Block) -> bool:
     return isinstance(block, Figure)
 
 
-def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Iterator[int]:
+def flow(
+    blocks: Sequence[Block], heights: Sequence[float], off: float, smaller: dict[int, float] | None = None
+) -> Iterator[int]:
     """Yield the places of blocks in the order in which they are printed.
 
-    `heights`: how high each is [pt]; `off`: by what share they may be wrong.
+    `heights`: how high each is [pt]; `off`: by what share they may be wrong; `smaller`: is given the share of its size
+    that a figure keeps which has almost room on its page.
     """
+    heights = list(heights)
     waiting: list[int] = []
     factors = np.linspace(1.0 - off, 1.0 + off, 15)
     filled, waited, is_heading = np.zeros(len(factors)), 0.0, False
@@ -185,6 +197,9 @@ def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Itera
                 break
             place = waiting[0] if place is None else place
             waiting.remove(place)
+            share = _share_of_size(blocks[place], heights[place], PAGE - float(filled.max()))
+            if smaller is not None and share < 1.0:
+                smaller[place], heights[place] = share, (PAGE - float(filled.max())) / (1.0 + off)
             filled, waited, is_heading = _after(filled, blocks[place], heights[place] * factors), 0.0, False
             yield place
         if not may_wait:
@@ -206,6 +221,14 @@ def _ready(waiting: Sequence[int], blocks: Sequence[Block]) -> Iterator[int]:
         before |= kinds
 
 
+def _share_of_size(block: Block, height: float, free: float) -> float:
+    """Return the share of its size at which a figure has room on its page, the whole where that is too small."""
+    if not isinstance(block, Figure) or block.half or block.to_scale or height <= _CAPTION:
+        return 1.0
+    share = (free - _SPARE * height - _CAPTION) / (height - _CAPTION)
+    return share if _SMALLEST <= share < 1.0 else 1.0
+
+
 def _left(filled: Array, height: float) -> Array:
     """Return the empty height of a page on which a figure is placed. [pt]"""
     return np.where(filled + height > PAGE, PAGE - filled, 0.0)
@@ -220,7 +243,7 @@ def _after(filled: Array, block: Block, high: Array) -> Array:
     """Return the filled height of the page after a block; text and long tables continue on the next one."""
     begins = filled
     is_divided = isinstance(block, Table | Paragraph | ItemList | Contents) and not is_whole(block)
-    if isinstance(block, Heading) or (isinstance(block, Table) and is_divided):
+    if isinstance(block, Heading) or leads(block) or (isinstance(block, Table) and is_divided):
         # neither caption and header nor a heading stand alone at the foot of a page; a header stands on every page
         least = _BEGINS if isinstance(block, Table) else high + 2 * LINE
         begins = np.where(filled + least > PAGE, 0.0, filled)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.formula.calculation_lines import FormulaLine
@@ -52,7 +53,7 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import TOGETHER, Numbering, flow, is_whole, numbering
+from crankwork.note.numbering import TOGETHER, Numbering, flow, is_whole, leads, numbering
 from crankwork.note.symbols import symbol_box
 from crankwork.note.table_width import SIZES, fits, one_line_widths, room
 from crankwork.quantities import Language
@@ -73,6 +74,8 @@ _HEIGHTS = """
 }
 """
 _OFF = 0.01
+# width of the text of a page [mm]
+_TEXT_WIDTH = 170.0
 _TURNED, _TURNED_END = "#page(flipped: true)[\n", "\n]"
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
@@ -102,7 +105,11 @@ def pdf(note: Note) -> bytes:
         marked = "\n".join(f"#[#metadata(none)<at>]\n{text}" for text in written)
         measured = f"{head}{_ENDLESS}{marked}{_HEIGHTS}".encode()
         heights = typst.query(measured, "<heights>", field="value", ignore_system_fonts=True)
-        order = flow([note.blocks[row[0]] for row in rows], json.loads(heights)[0], _OFF)
+        smaller = dict[int, float]()
+        order = list(flow([note.blocks[row[0]] for row in rows], json.loads(heights)[0], _OFF, smaller))
+        for place, share in smaller.items():
+            (k,) = rows[place]
+            written[place] = "\n".join(_block(_sized(note.blocks[k], share), numbers.blocks[k], note, numbers))
         # wide tables that follow each other share pages
         body = "\n".join(written[place] for place in order).replace(f"{_TURNED_END}\n{_TURNED}", "")
         source = f"{head}{body}\n".encode()
@@ -112,6 +119,15 @@ def pdf(note: Note) -> bytes:
         if not missing:
             raise
         raise _missing_character(missing["text"]) from None
+
+
+def _sized(block: Block, share: float) -> Block:
+    """Return a figure at a share of its size."""
+    if not isinstance(block, Figure):
+        return block
+    # no wider than the text before it is made smaller
+    wide = min(block.width, _TEXT_WIDTH)
+    return replace(block, high=share * wide * block.drawing.height / block.drawing.width)
 
 
 def _missing_character(text: str) -> CrankworkError:
@@ -151,7 +167,8 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
         case Heading(level, words):
             yield f"#heading(level: {level}, {typst_string(f'{number} {words}'.strip())})"
         case Paragraph(runs):
-            yield f"#par[{_runs(runs, numbers)}]"
+            words = f"#par[{_runs(runs, numbers)}]"
+            yield f"#block(sticky: true, spacing: 0.75em)[{words}]" if leads(block) else words
         case Equation():
             yield from _equation(block, number, numbers)
         case Table():
@@ -168,7 +185,8 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
         case TitlePage():
             yield _title_page(block, note)
         case Bibliography():
-            yield "#enum(spacing: 0.6em, " + ", ".join(typst_string(cite(key)) for key in numbers.sources) + ")"
+            listed = ", ".join(typst_string(cite(key)) for key in numbers.sources)
+            yield f"#[#set text(size: 10pt)\n#enum(spacing: 0.45em, {listed})]"
 
 
 def _runs(runs: Runs, numbers: Numbering) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,8 +49,8 @@ _PARTS = ("gas_force", "inertia_force")
 def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
     """Return the sentence that reads a figure of some kind, of one of several crankpins; None where it has none."""
     known = _known(kind, material, pin)
-    if kind == "joint_forces":
-        return _of_joints(material)
+    if kind in _OF_MACHINES:
+        return _OF_MACHINES[kind](material)
     if not known or (kind == "piston_forces" and not {*_PARTS} <= material.columns.keys()):
         return None
     words, values = material.words, dict[str, str]()
@@ -105,6 +105,39 @@ def _of_joints(material: Material) -> Paragraph | None:
         value=words.amount(forces[key], key_unit(key), digits=4),
         angle=words.angle(angle),
     )
+
+
+def _of_rotor(material: Material) -> Paragraph | None:
+    """Return the sentence on what pistons leave unbalanced: forces along and across their line, and the couple."""
+    words, summary, values = material.words, material.summary, dict[str, str]()
+    for name, keys in _SWINGING.items():
+        key = next((key for key in keys if key in summary), "")
+        if key:
+            values[name] = words.amount(summary[key], key_unit(key), digits=4)
+    if not {"along", "across"} <= values.keys():
+        return words.paragraph("reads_left", **values) if {"force", "moment"} <= values.keys() else None
+    sentence = words.sentence("reads_unbalanced", **values)
+    return Paragraph((*sentence, " ", *words.sentence("reads_couple", **values)) if "couple" in values else sentence)
+
+
+def _of_hammer(material: Material) -> Paragraph | None:
+    """Return the sentence on the largest hammer blow, and the speed at which it lifts a wheel."""
+    words, summary, values = material.words, material.summary, dict[str, str]()
+    for kind, choose in (("hammer_blow", max), ("lifting_speed", min)):
+        known = [value for key, value in summary.items() if key_of(key).quantity == kind]
+        if known:
+            values[kind] = words.amount(choose(known), key_unit(kind), digits=4)
+    return words.paragraph("reads_hammer", **values) if len(values) > 1 else None
+
+
+_OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
+    "joint_forces": _of_joints, "unbalanced": _of_rotor, "hammer_blow": _of_hammer,
+}  # fmt: skip
+# amplitudes of what swings at the speed of a shaft
+_SWINGING = {
+    "along": ("tractive_effort_variation", "free_force.along"), "across": ("free_force.across",),
+    "couple": ("swaying_couple", "free_moment.along"), "force": ("free_force.1",), "moment": ("free_moment.1",),
+}  # fmt: skip
 
 
 def concluded(material: Material) -> Iterator[Paragraph]:
@@ -167,6 +200,7 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
     ]
     if balanced:
         yield words.paragraph("reads_planes", values="; ".join(balanced))
+    yield from filter(None, (reading(kind, material) for kind in ("unbalanced", "hammer_blow")))
     if "mean_torque" in summary and "shaft_power" in summary and summary["shaft_power"] > 0:
         known = [key for key in ("mean_torque", "shaft_power", "standard_motor_power") if key in summary]
         amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in known}

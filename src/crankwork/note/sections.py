@@ -209,6 +209,12 @@ def _engine_title(material: Material) -> str:
     )
 
 
+def _own_title(results: Results, options: NoteOptions) -> str:
+    """Return the title of the file where it is in the language, else what the machine is."""
+    title = getattr(results.machine.document, f"title_{options.language}") or results.machine.title
+    return title if title and _speaks(title, options.language) else _titles(Material(results, options))[0]
+
+
 def _speaks(title: str, language: Language) -> bool:
     """Return whether a title may be in a language: by its letters."""
     letters = [letter for letter in title.lower() if letter.isalpha() and not letter.isascii()]
@@ -278,6 +284,7 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed
 
     block = sheets.block_of(results.machine.document, cast("Language", options.order), options.author)
+    block = block._replace(subject=block.subject or _own_title(results, options))
     paper = sheets.Paper(options.paper, has_grid=options.grid, block=block)
     with use_numbers(link_numbers(results)):
         drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area)

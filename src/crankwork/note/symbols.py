@@ -33,6 +33,8 @@ _SUM = re.compile(r" ?([+−=]) ?")
 _MULTIPLE = re.compile(r"(?P<count>\d+(?:[.,]\d+)?)(?P<rest>\D.*)")
 _SUBSTANCE = re.compile(r"(?P<base>\w)_(?P<below>[CHNO][CHNO₀-₉]*)")
 _PLAIN = re.compile(r"(?P<base>[^_\s′″²₀-₉]+)(?:_(?P<below>[^\s′″²₀-₉]+))?")
+# the subscript that stands for any link
+_OF_EACH = re.compile("_i(?![a-z])")
 _MARKS = re.compile(r"[′″²]+")
 _LOW = re.compile(r"([₀-₉]+)")
 _LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
@@ -41,8 +43,21 @@ _PARTS = frozenset((
     "guide", "shaking", "weight", "arm", "arms", "place", "carried", "load", "both", "normal",
     "start", "free", "preload", "piece", "end", "from", "damper",
 ))  # fmt: skip
-# what belongs to parts of a balance or to numbered stages, never to what a file names
-_OF_PARTS = ("heat_share", "stage_pressure_ratio", "stage_flow", "stage_power")
+# what belongs to parts of a balance, to directions or to numbered stages, never to what a file names
+_OF_PARTS = ("heat_share", "stage_pressure_ratio", "stage_flow", "stage_power", "free_force", "free_moment",
+             "rotor_unbalance", "rotor_unbalance_x", "rotor_unbalance_y", "rotor_couple", "rotor_couple_x",
+             "rotor_couple_y", "plane_position")  # fmt: skip
+# what belongs to masses in planes of a shaft
+OF_MASSES = (
+    "plane_",
+    "sector_",
+    "reciprocating_moment",
+    "hammer_blow",
+    "lifting_",
+    "rail_load",
+    "rotor_",
+    "secondary_",
+)
 _WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 _NUMBER = re.compile(r"(?P<sign>−?)(?:(?P<mantissa>[\d.,]+)(?:·|$))?(?:10(?P<exponent>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+))?")
 _LEVEL = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
@@ -166,8 +181,9 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     marks = texts("marks", language)
     crank = {"crank": link_label("crank", language)}
     owner = marks.get(owner, owner) if kind in _OF_PARTS else owner
+    owner = link_label(owner, language) if kind.startswith(OF_MASSES) else owner
     names = [crank.get(owner, owner), *(marks[part] if part in _PARTS else crank.get(part, part) for part in parts)]
     name = subscript(".".join(names))
-    if "_i" in shown and not kind.startswith("indicated"):
-        return shown.replace("_i", f"_{name}", 1)
+    if _OF_EACH.search(shown) and not kind.startswith("indicated"):
+        return _OF_EACH.sub(f"_{name}", shown, count=1)
     return f"{shown}{',' if '_' in shown else '_'}{name}"

@@ -75,7 +75,7 @@ def _parts(runs: Runs) -> list[float]:
         if isinstance(run, Math):
             parts[-1] += width(symbol_box(run.content)) if isinstance(run.content, str) else 0.0
         elif isinstance(run, str):
-            first, *further = (_LETTER * len(word) for word in run.split(" "))
+            first, *further = (max(_LETTER * len(word), text_width(word, CAP_HEIGHT)) for word in run.split(" "))
             parts[-1] += first
             parts += further
     return parts

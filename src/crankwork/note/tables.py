@@ -19,7 +19,7 @@ from crankwork.note.document import Block, Cell, Math, Run, Runs, Strong, Table
 from crankwork.note.material import Material
 from crankwork.note.table_width import PAGE, SIZES, fits, one_line_widths
 from crankwork.note.wording import Words
-from crankwork.report.display import displayed, key_unit, label, row_name
+from crankwork.report.display import displayed, key_unit, label, link_label, row_name
 
 # rows that fit on a page, and parts and columns of a table that stand side by side
 _LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10
@@ -178,7 +178,9 @@ def _are_equal_rows(listing: Listing, row: int, other: int) -> bool:
 
 def _row_text(name: str, words: Words) -> str:
     """Return what a row of a listing is called; joints have names of their own."""
-    return row_name(name, words.language) if has_text(f"report.{name.partition('.')[0]}") else name.replace("_", " ")
+    if has_text(f"report.{name.partition('.')[0]}"):
+        return row_name(name, words.language)
+    return link_label(name, words.language).replace("_", " ")
 
 
 def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words, parts: int = 2) -> Table:

@@ -444,7 +444,7 @@ def _gear_ratios(material: Material) -> Iterator[Block]:
         tuple(words.number(value, digits=4) for value in (speed, speed * (1 - slip), ratio))
         for speed, ratio in speeds.items()
     ]
-    titles = [(words.term(key, "rpm"),) for key in ("synchronous_speed", "rated_speed")]
+    titles = [(words.column(key, "rpm"),) for key in ("synchronous_speed", "rated_speed")]
     yield words.table("gear_ratios", (*titles, words.titled("motor_ratio")), rows, "rrr", "gear_ratios")
 
 

@@ -179,6 +179,8 @@ class Words:
                 return [self.number(value, digits=digits) for value in values]
             is_whole = all(value == round(value) and value < 10**digits for value in known)
             decimals = 0 if is_whole else max(digits - leading, 0)
+            # of millions nobody reads the ones
+            values = [round(value, digits - leading) for value in values] if leading > digits + 2 else values
         return [self.fixed(value, decimals) for value in values]
 
     def place(self, degrees: float) -> tuple[Math, float, str]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.rounding_noise import rounding_of_extremes
+from crankwork.analysis.rounding_noise import rounding_of_values
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import Delayed, Input, ProcedureValue, TracedValue, in_order
 from crankwork.kernel.compiled import Kernel
@@ -150,7 +150,7 @@ class LivePage:
         self._wrong: set[str] = set()
         beyond = np.array([*(around or {}), *(further or {})])[:, None]
         self._at = np.concatenate([moved.designs, beyond]) if beyond.size else moved.designs
-        limits = [rounding_of_extremes(result) for result in self._compared]
+        limits = [rounding_of_values(result) for result in self._compared]
         self._rounding = {key: max(limit.get(key, 0.0) for limit in limits) for key in limits[0]}
 
     def _followed(self, keys: Sequence[str]) -> list[str]:

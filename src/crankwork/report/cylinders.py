@@ -15,6 +15,7 @@ from crankwork.analysis.load_diagrams import Locus, crankpin_of_one
 from crankwork.analysis.results import Listing
 from crankwork.analysis.rotor_balance import polygons
 from crankwork.locale import translate
+from crankwork.report.display import link_label
 from crankwork.report.look import Drawn
 from crankwork.show.canvas import (
     BLACK,
@@ -674,22 +675,54 @@ def has_polygons(machine: Drawn) -> bool:
 
 
 def balance_polygons(machine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the directions of the masses, the polygon of their moments, and that of the couples of the moments."""
+    """Return the planes and directions of the masses, the polygon of their moments, and that of their couples."""
     drawn = polygons(machine.results)
     star = np.array(drawn["plane_moment"][1])
     panels: dict[str, tuple[str, tuple[str, ...], Array, Array]] = {
         "directions": ("plane_moment", drawn["plane_moment"][0], np.zeros((len(star) - 1, 2)), np.diff(star, axis=0)),
         **{kind: (kind, names, ends[:-1], ends[1:]) for kind, (names, ends) in drawn.items()},
     }
-    columns = columns_of(2)
+    trace, names = machine.results.trace, drawn["plane_moment"][0]
+    along = np.array([trace[key].value for name in names if (key := f"plane_position.{name}") in trace])
+    columns, has_planes = columns_of(2), along.size == len(names)
     side = min((current_layout().inner - (columns - 1) * _BALANCE_GAP) / columns, scaled_height(_BALANCE_SIDE))
-    lines = -(-len(panels) // columns)
+    lines = -(-(len(panels) + has_planes) // columns)
     paper, graphs = Canvas(current_layout().width, TOP + lines * (side + _TITLE) + BOTTOM - _TITLE), dict[str, Graph]()
-    for index, (name, (kind, sides, starts, ends)) in enumerate(panels.items()):
-        left = current_layout().left + (index % columns) * (side + _BALANCE_GAP)
-        box = ChartBox(left, TOP + (index // columns) * (side + _TITLE), side, side)
+    boxes = [
+        ChartBox(current_layout().left + column * (side + _BALANCE_GAP), TOP + row * (side + _TITLE), side, side)
+        for row in range(lines)
+        for column in range(columns)
+    ]
+    if has_planes:
+        graphs["planes"] = _along_shaft(machine, paper, boxes.pop(0), names, along, np.diff(star, axis=0))
+    for box, (name, (kind, sides, starts, ends)) in zip(boxes, panels.items(), strict=False):
         graphs[name] = _polygon(machine, paper, box, kind, sides, starts, ends)
     return paper, graphs
+
+
+def _along_shaft(  # noqa: PLR0913 - where, and what of
+    machine: Drawn, paper: Canvas, box: ChartBox, names: tuple[str, ...], along: Array, moments: Array
+) -> Graph:
+    """Draw a shaft from the side: a line in each plane, as high as the moment of its mass goes up."""
+    z, up = machine.shown("plane_position", along), machine.shown("plane_moment", moments[:, 1])
+    spare = 0.12 * float(np.ptp(z))
+    low, high = min(0.0, float(up.min())), max(0.0, float(up.max()))
+    x, y = (float(z.min()) - spare, float(z.max()) + spare), (low - 0.1 * (high - low), high + 0.1 * (high - low))
+    graph = Graph(paper, box, x, y, machine.language)
+    graph.frame(round_ticks(*x, 4), round_ticks(*y, 4))
+    ends = [
+        (graph.point(place, 0.0), graph.point(place, end)) for place, end in zip(z.tolist(), up.tolist(), strict=True)
+    ]
+    paper.segments(np.array([(*graph.point(float(z.min()), 0.0), *graph.point(float(z.max()), 0.0))]), width=1.8)
+    for foot, head in ends:
+        paper.segments(np.array([(*foot, *head)]), width=0.9)
+        paper.dot(*head, 2.6)
+    labels = [(link_label(name, machine.language), *head) for name, (_, head) in zip(names, ends, strict=True)]
+    label_marks(paper, labels, frame=box)
+    graph.curves["plane_moment"] = z, up
+    graph.x_title(f"{machine.symbol('plane_position')}, {machine.unit('plane_position')}")
+    graph.y_title(f"{machine.symbol('plane_moment_y')}, {machine.unit('plane_moment')}")
+    return graph
 
 
 def _polygon(  # noqa: PLR0913 - where, what of, and its sides
@@ -706,7 +739,7 @@ def _polygon(  # noqa: PLR0913 - where, what of, and its sides
     for name, start, end in zip(names, first, last, strict=True):
         tail, head = graph.point(*start.tolist()), graph.point(*end.tolist())
         paper.arrow(tail, head)
-        marks.append((name, (tail[0] + head[0]) / 2, (tail[1] + head[1]) / 2))
+        marks.append((link_label(name, machine.language), (tail[0] + head[0]) / 2, (tail[1] + head[1]) / 2))
     label_marks(paper, marks, dot=0.0, frame=box)
     graph.curves[kind] = last[:, 0], last[:, 1]
     for axis, write in (("x", graph.x_title), ("y", graph.y_title)):

@@ -335,10 +335,12 @@ def lever_figure(machine: Drawn) -> Drawing:
     room = np.maximum(np.array([current_layout().width, scaled_height(_TALL)]) - 2 * (_LEVER_MARGIN + _FORCE), _LOWEST)
     scale = round_scale(float(points_per_mm() * max((right - left) / room[0], (top - bottom) / room[1])), FINE)
     unit = points_per_mm() / scale
-    high = (top - bottom) * unit + 2 * (_LEVER_MARGIN + _FORCE)
+    tips = np.array([_arrow(force.force, unit)[1] for force in forces if force.force.size]).reshape(-1, 2)
+    (left, bottom), (right, top) = (end(np.vstack([places, tips]), axis=0) for end in (np.min, np.max))
+    high = (top - bottom) * unit + 2 * _LEVER_MARGIN
     rows = _rows(lever, forces, numbers, scale, language)
     paper = Canvas(current_layout().width, high + _LEVER_ROW * (len(rows) + 1) + _LEVER_FOOT)
-    low, wide = bottom - (_LEVER_MARGIN + _FORCE) / unit, current_layout().width / unit
+    low, wide = bottom - _LEVER_MARGIN / unit, current_layout().width / unit
     x, y = ((left + right - wide) / 2, (left + right + wide) / 2), (low, low + high / unit)
     graph = Graph(paper, ChartBox(0.0, 0.0, current_layout().width, high), x, y, language, to_scale=False)
     _arms(graph, forces)

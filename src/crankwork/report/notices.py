@@ -14,7 +14,7 @@ from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.quantities.key import key_of
-from crankwork.report.display import displayed, in_own_units, key_unit, label
+from crankwork.report.display import displayed, in_own_units, key_unit, label, link_label
 from crankwork.report.tables import any_nonzero
 
 # numbers of a notice that are in the unit of its quantity
@@ -132,7 +132,7 @@ def _assumption(item: Assumption, language: Language) -> str:
     if item.code == "taken":
         return translate("assumptions.taken", language, value=_taken(item, language), keys=keys)
     name = translate(item.meaning, language) if item.meaning else ""
-    names = ", ".join(part.partition(".")[2] or part for part in item.names)
+    names = ", ".join(link_label(part.partition(".")[2] or part, language) for part in item.names)
     return translate(
         f"assumptions.{item.code}", language, keys=keys, name=name, names=names, value=_written(item.value, language)
     )

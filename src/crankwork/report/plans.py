@@ -51,6 +51,8 @@ from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
 _TALL, _MARGIN, _LIST_WIDTH, _LIST, _ROW = 330.0, 26.0, 170.8, 150.0, 13.5
+# height of a plan beside another one at most, of the width that it has
+_EVEN = 1.3
 # height of a plan at least, and how many points that lie beneath others are explained
 _LOWEST, _UNDER = 40.0, 3
 # a linkage whose points have velocities or accelerations a billionth of this stands still
@@ -197,7 +199,9 @@ def _figure(  # noqa: PLR0913 - a plan, and what stands beside it
     margin = margin if around is None else side
     listed = _ROW * len(rows) if has_list else 0.0
     high = max(scaled_height(_TALL), listed)
-    room = side - 2 * min(margin, side / 8), max(high - 2 * _MARGIN, _LOWEST)
+    wide = side - 2 * min(margin, side / 8)
+    # plans beside each other are about as large, however they lie
+    room = wide, max(min(high - 2 * _MARGIN, _EVEN * wide if position is not None else math.inf), _LOWEST)
     scale = _scale(size, among, room)
     unit = points_per_mm() / scale
     high = max(max(size[1], 1e-12) * unit + 2 * _MARGIN, listed + 30) + 34

@@ -69,7 +69,7 @@ class Row(NamedTuple):
     colour: str = BLACK
 
 
-def round_ticks(low: float, high: float, most: int = 8) -> Array:
+def round_ticks(low: float, high: float, most: float = 8) -> Array:
     """Return round numbers within a range. [its unit]
 
     Multiples of 1, 2, 2.5 or 5 times a power of ten.
@@ -140,7 +140,7 @@ class Graph:
     def up_ticks(self) -> Array:
         """Round numbers on the vertical axis, as many as have room. [its unit]"""
         most = max(4, round(self.box.height / 24))
-        return round_ticks(*self.y, max(1, min(most, int(self.box.height / 13))) if current_layout().is_sheet else most)
+        return round_ticks(*self.y, max(1.0, min(most, self.box.height / 13)) if current_layout().is_sheet else most)
 
     def across(self, x: float | Array) -> Array:
         """Return the positions of values of x on the canvas. [pt]"""

@@ -31,13 +31,16 @@ from crankwork.show.scene import (
     text_width,
 )
 
-_TITLE_ROW, _ROW = 8.5, 6.0
+# between rows of a heading and of scales, and between both [mm]
+_TITLE_ROW, _ROW, _APART = 8.5, 6.0, 2.0
 _LEFT, _RIGHT = 35.0, 7.0
 # how much taller than in a text the graphs of a figure are tried
 _SCALES = tuple(0.3 * 1.16**step for step in range(21))
-# how much higher than in a text it is, for its width, and still looks as it should
-_HIGHEST = 1.6
+# how much higher than in a text it is, for its width: where sheets are divided, and where there is room at last
+HIGHEST, TALLEST = 1.6, 2.1
 _GAP, _FEW, _CLEAR = 7.0, 2, 0.3
+# shares of the width on which the rows of a heading are of about one length
+_EVEN = (0.55, 0.65, 0.75, 0.85, 1.0)
 # below the cell in the corner [mm]
 _BELOW = 4.0
 # width of a graph over the crank angle at least [mm]
@@ -60,11 +63,21 @@ class Fit(NamedTuple):
     place: ChartLayout
     drawing: Drawing
     ink: ChartBox
+    stretch: float = 1.0  # How much higher than in a text it is, for its width
 
     @property
     def name(self) -> str:
         """The name of its figure."""
         return self.picture.name
+
+
+class Limits(NamedTuple):
+    """Heights [mm] and widths of pictures: how they are bound."""
+
+    height: float  # Of what use a height is at most [mm]
+    least: float  # How tall graphs are at least, against those of a text
+    highest: float  # How much higher than in a text they are at most
+    is_alone: bool = False  # Whether a column is as wide as the sheet
 
 
 Layout = tuple[float, ...]
@@ -76,13 +89,14 @@ def packed(
     field: ChartBox,
     taken: tuple[ChartBox, ChartBox],
     layouts: Sequence[Layout],
-    least: float,
+    bounds: tuple[float, float],
     sizes: Sizes,
 ) -> list[Fit]:
     """Return pictures placed in columns in their order, so that they fill as much of the field as they can.
 
     `taken`: free areas at the upper left and at the lower right of the field [mm]; `layouts`: shares of the
-    width of columns; `least`: how tall graphs are at least, against those of a text; `sizes`: those tried before.
+    width of columns; `bounds`: how tall graphs are at least, against those of a text, and how much higher pictures
+    are at most; `sizes`: those tried before.
     """
     best, most = list[Fit](), -math.inf
     for layout in layouts:
@@ -92,7 +106,7 @@ def packed(
         boxes = list(_columns(field, taken, layout))
         for ends in itertools.combinations(range(1, len(pictures)), len(layout) - 1):
             parts = [pictures[start:end] for start, end in itertools.pairwise((0, *ends, len(pictures)))]
-            limits = (field.height, least)
+            limits = Limits(field.height, *bounds, is_alone=len(layout) == 1)
             columns = [_stacked(part, box, limits, sizes) for part, box in zip(parts, boxes, strict=True)]
             if any(fits is None for fits in columns):
                 continue
@@ -143,14 +157,14 @@ def _columns(field: ChartBox, taken: tuple[ChartBox, ChartBox], layout: Layout) 
         left += width + _GAP
 
 
-def _stacked(pictures: Sequence[Picture], box: ChartBox, limits: tuple[float, float], sizes: Sizes) -> list[Fit] | None:
+def _stacked(pictures: Sequence[Picture], box: ChartBox, limits: Limits, sizes: Sizes) -> list[Fit] | None:
     """Return pictures one below the other in a column, or None if it has no room for them."""
     choices = []
     for picture in pictures:
         key = picture.name, box.width
         if key not in sizes:
             sizes[key] = _sizes(picture, box.width, limits)
-        choices.append([fit for fit in sizes[key] if fit.ink.height <= box.height])
+        choices.append([fit for fit in sizes[key] if fit.ink.height <= box.height and fit.stretch <= limits.highest])
     room = int(box.height - _GAP * (len(pictures) - 1))
     # the best value for each height used [mm]
     best: dict[int, tuple[float, tuple[Fit, ...]]] = {0: (0.0, ())}
@@ -165,11 +179,12 @@ def _stacked(pictures: Sequence[Picture], box: ChartBox, limits: tuple[float, fl
     if not best:
         return None
     used, (_, chosen) = max(best.items(), key=lambda item: item[1][0])
+    # headings of columns stand on one line, what is as wide as the sheet in its middle
     margin, top, result = (room - used) / len(chosen), box.top, []
+    top -= margin / 2 if limits.is_alone else 0.0
     for fit in chosen:
-        top -= margin / 2
         result.append(_at(fit, box.left + (box.width - fit.ink.width) / 2, top))
-        top -= fit.ink.height + margin / 2 + _GAP
+        top -= fit.ink.height + margin + _GAP
     return result
 
 
@@ -193,21 +208,18 @@ def _at(fit: Fit, left: float, top: float) -> Fit:
     return fit._replace(drawing=fit.drawing._replace(items=items, plots=plots), ink=ink)
 
 
-def _sizes(picture: Picture, width: float, limits: tuple[float, float]) -> list[Fit]:
-    """Return a picture in every height that it has at a width, from low to high. [mm]
-
-    `limits`: of what use a height is at most [mm], and how tall graphs are at least.
-    """
-    limit, least = limits
-    usable = [scale for scale in _SCALES if scale >= least]
+def _sizes(picture: Picture, width: float, limits: Limits) -> list[Fit]:
+    """Return a picture in every height that it has at a width, from low to high. [mm]"""
+    usable = [scale for scale in _SCALES if scale >= limits.least]
     with use_layout(ChartLayout(is_rough=True)):
         in_text = picture.draw()
-    highest, point = _HIGHEST * in_text.height / in_text.width, MM * LARGER
+    ratio, point = in_text.height / in_text.width, MM * LARGER
 
     def fit(index: int) -> Fit:
         place = ChartLayout(width / point, _LEFT / point, _RIGHT / point, usable[index], is_sheet=True, is_rough=True)
         with use_layout(place):
-            return headed(picture, picture.draw(), width, place)
+            drawn = headed(picture, picture.draw(), width, place)
+        return drawn._replace(stretch=drawn.ink.height / (ratio * drawn.ink.width))
 
     fits = {0: fit(0), len(usable) - 1: fit(len(usable) - 1)}
     parts = [(0, len(usable) - 1)]
@@ -215,14 +227,14 @@ def _sizes(picture: Picture, width: float, limits: tuple[float, float]) -> list[
         first, last = parts.pop()
         low, high = fits[first].ink, fits[last].ink
         # between two of about one height there is no other, and no need of higher ones
-        useful = min(highest * low.width, limit)
+        useful = min(TALLEST * ratio * low.width, limits.height)
         if last - first > 1 and high.height > low.height + 1 and low.height < useful:
             middle = (first + last) // 2
             fits[middle] = fit(middle)
             parts += [(first, middle), (middle, last)]
     result: list[Fit] = []
     for _, fit_at in sorted(fits.items()):
-        if result and fit_at.ink.height > highest * fit_at.ink.width:
+        if result and fit_at.stretch > TALLEST:
             break
         # of a single graph over the crank angle less could not be read
         angles = [plot.box.width for plot in fit_at.drawing.plots if plot.over == "crank_angle"]
@@ -241,14 +253,15 @@ def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout)
     middle, top = ink.left + ink.width / 2, ink.top + 2.0
     rows = [(row_text, TEXT) for row_text in flow_rows(scales(drawing), ";  ", width / WIDER)]
     scale_rows = len(rows)
-    title = capital(drawing.title)
-    size = next((height for height in (TITLE, TEXT) if WIDER * text_width(title, height) <= width), TEXT)
-    room = partial(text_width, height=WIDER * size)
-    rows = [*((row_text, size) for row_text in flow_rows(title.split(" "), " ", width, room)), *rows]
+    room = partial(text_width, height=WIDER * TITLE)
+    words = capital(drawing.title).split(" ")
+    tried = [flow_rows(words, " ", share * width, room) for share in _EVEN]
+    rows = [*((text, TITLE) for text in next(title for title in tried if len(title) == len(tried[-1]))), *rows]
     items: list[Item] = []
     for text, height in reversed(rows):
+        top += _APART if items and len(items) == scale_rows else 0.0
         items.append(Text((middle, top + 1.5), text, height, "middle"))
-        top += height / TITLE * _TITLE_ROW if len(items) > scale_rows else _ROW
+        top += _TITLE_ROW if len(items) > scale_rows else _ROW
     drawing = drawing._replace(items=(*drawing.items, *items))
     return Fit(picture, place, drawing, covered(drawing.items))
 

@@ -14,7 +14,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import decimal, translate
 from crankwork.machine import Document
 from crankwork.note.captions import printed_date
-from crankwork.note.sheets.packing import Fit, Layout, Picture, Sizes, finished, grown, packed, worth
+from crankwork.note.sheets.packing import HIGHEST, TALLEST, Fit, Layout, Picture, Sizes, finished, grown, packed, worth
 from crankwork.quantities import Language
 from crankwork.show.canvas import WIDER, Canvas, ChartLayout, current_layout, fitted_lines, use_layout
 from crankwork.show.canvas import text_width as canvas_width
@@ -169,9 +169,11 @@ def sheets_with(
             best.append(min(options, key=lambda option: option[:2]))
         parts = best[-1][2]
     for part in parts:
-        rough, done = part, [finished(fit, _field(paper), paper.corner) for fit in part]
+        shown = [fit.picture for fit in part]
+        rough = _packed(shown, paper, sizes, TALLEST) or part
+        done = [finished(fit, _field(paper), paper.corner) for fit in rough]
         for _ in range(_TRIES):
-            if not grown(rough, done, sizes) or not (higher := _packed([fit.picture for fit in part], paper, sizes)):
+            if not grown(rough, done, sizes) or not (higher := _packed(shown, paper, sizes, TALLEST)):
                 break
             rough, done = higher, [finished(fit, _field(paper), paper.corner) for fit in higher]
         yield Sheet(name, title, language, paper, tuple(done))
@@ -186,12 +188,12 @@ def _without_room(picture: Picture, paper: Paper, language: Language) -> Picture
 
 
 def _field(paper: Paper) -> ChartBox:
-    return paper.frame.inset(2, 2, 2, 5)
+    return paper.frame.inset(2, 2, 2, 7)
 
 
-def _packed(pictures: Sequence[Picture], paper: Paper, sizes: Sizes) -> list[Fit]:
-    taken = paper.corner, paper.reserved
-    return packed(pictures, _field(paper), taken, _LAYOUTS[paper.size], _LEAST[paper.size], sizes)
+def _packed(pictures: Sequence[Picture], paper: Paper, sizes: Sizes, highest: float = HIGHEST) -> list[Fit]:
+    taken, bounds = (paper.corner, paper.reserved), (_LEAST[paper.size], highest)
+    return packed(pictures, _field(paper), taken, _LAYOUTS[paper.size], bounds, sizes)
 
 
 def numbered(sheets: Sequence[Sheet], paper: Paper) -> tuple[Sheet, ...]:
