@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.preparation.prepared import PreparedMachine
 from crankwork.analysis.results import Results
 from crankwork.formula.calculation import Calculation
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
+from crankwork.preparation.prepared import PreparedMachine
 from crankwork.shaft.clutch import inertia_of_side, work_clutch
 
 # quantities of the numbers that a file states, and those of a shaft behind its name
