@@ -79,7 +79,7 @@ _WITHOUT_PLACE = ("shaking_force_max_angle", "counterweight_")
 
 def each_for_itself(monkeypatch, machine):
     with monkeypatch.context() as patch:
-        patch.setattr(gas_chambers, "equal_cells", lambda _: ())
+        patch.setattr(linkage, "equal_cells", lambda _: ())
         return analyse(machine)
 
 
@@ -104,7 +104,7 @@ def test_a_twin_cylinder_has_the_results_of_each_cylinder_traced_for_itself(monk
     expected = each_for_itself(monkeypatch, machine)
     assert differing(expected, analyse(machine)) == []
     late = replace(part, delay=part.delay + 0.001)
-    monkeypatch.setattr(gas_chambers, "equal_cells", lambda _: (late,))
+    monkeypatch.setattr(linkage, "equal_cells", lambda _: (late,))
     assert len(differing(expected, analyse(machine))) > 20
 
 
