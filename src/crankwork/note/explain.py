@@ -116,7 +116,7 @@ def explanation(
         value = 0.0
     where = "" if at is None or is_constant else f"({places(degrees)})"
     shown = " = ".join([f"{value_symbol(display_key(key, results), language)}{where}", *_values(key, value, language)])
-    head = [f"{capital(label(display_key(key, results), language)) if _has_label(key) else key}: {shown}"]
+    head = [f"{capital(label(display_key(key, results), language)) if base_key(key) in QUANTITIES else key}: {shown}"]
     head += list(_acting(key, results, language))
     if explained is None:
         return "\n".join([*head, "", translate("explain.no_memory", language)]) + "\n"
@@ -160,10 +160,6 @@ def _shown_rows(results: Results) -> list[float]:
 def place_text(origin: Origin, language: Language) -> str:
     """Return where the machine file states a value, in words."""
     return translate(f"explain.{origin.kind}", language, path=origin.path, line=origin.line)
-
-
-def _has_label(key: str) -> bool:
-    return base_key(key) in QUANTITIES
 
 
 def _angle(degrees: float, language: Language) -> str:
