@@ -211,14 +211,16 @@ class Snapshot:
             case Arithmetic() if key:
                 return self._step(known.named(key), Symbol("_"), {"_": TracedValue(known.node)})
             case Sum(operands=terms):
-                present = (term for term in terms if not term.is_absent)
-                shown = tuple(ValueLine(self._marked(of.key, of), self.value(of), self.is_noise(of)) for of in present)
+                shown = tuple(self._term(term) for term in terms if not term.is_absent)
                 return SumLine(key, shown, self.value(known), _is_zero(*_sum_of(shown)))
             case Delayed(of=column, by=shift, cycle=cycle):
                 return DelayedLine(key, column.key, (self.degrees - shift) % cycle, self.value(known))
             case ProcedureValue(word=word, at=angle, operands=(operand,)) if angle is not None and word in _AT_AN_ANGLE:
                 return Snapshot(self._angles_at, angle).step(operand.named(known.key))
         return ValueLine(key, self.value(known), self.is_noise(known))
+
+    def _term(self, known: TracedValue) -> ValueLine:
+        return ValueLine(self._marked(known.key, known), self.value(known), self.is_noise(known))
 
     def _marked(self, key: str, known: TracedValue) -> str:
         # an angle counted from elsewhere is that of cylinder 1
