@@ -10,12 +10,12 @@ import pytest
 
 import crankwork as cw
 from crankwork import CrankGrid, analyse, read_machine
-from crankwork.analysis import gas_chambers
 from crankwork.analysis.operating_state import operating_state
 from crankwork.description.shorthand import expanded
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.formula.traced_value import Delayed
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.preparation import linkage as linkage_preparation
 from crankwork.preparation.equal_cells import equal_cells
 from each import for_each
 from expansions import differences
@@ -79,7 +79,7 @@ _WITHOUT_PLACE = ("shaking_force_max_angle", "counterweight_")
 
 def each_for_itself(monkeypatch, machine):
     with monkeypatch.context() as patch:
-        patch.setattr(gas_chambers, "equal_cells", lambda _: ())
+        patch.setattr(linkage_preparation, "equal_cells", lambda _: ())
         return analyse(machine)
 
 
@@ -104,7 +104,7 @@ def test_a_twin_cylinder_has_the_results_of_each_cylinder_traced_for_itself(monk
     expected = each_for_itself(monkeypatch, machine)
     assert differing(expected, analyse(machine)) == []
     late = replace(part, delay=part.delay + 0.001)
-    monkeypatch.setattr(gas_chambers, "equal_cells", lambda _: (late,))
+    monkeypatch.setattr(linkage_preparation, "equal_cells", lambda _: (late,))
     assert len(differing(expected, analyse(machine))) > 20
 
 

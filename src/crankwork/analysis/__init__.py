@@ -4,14 +4,10 @@ from crankwork.analysis.analyse import analyse, columns_only, value_only, with_m
 from crankwork.analysis.cylinder_forces import columns, traced_cylinder
 from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import Array
-from crankwork.preparation.prepared import Notice, PreparedMachine, WorkingSpace
 
 __all__ = [
     "Array",
-    "Notice",
-    "PreparedMachine",
     "Results",
-    "WorkingSpace",
     "analyse",
     "columns",
     "columns_only",

@@ -6,10 +6,11 @@ import re
 from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.results import Results
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.curves import LoadCurve
@@ -17,9 +18,6 @@ from crankwork.loads.load import ProcessForce, Weight
 from crankwork.machine import FileInput, InputNumber
 from crankwork.working_cycle.fuels import FUELS
 from crankwork.working_cycle.schools import PEAK_LEVEL
-
-if TYPE_CHECKING:
-    from crankwork.analysis.results import Results
 
 # keys of a file about its texts, tables and drawings, which change no result
 _DISPLAY = re.compile(r"(title|document|format|units|decimal_mark|table)\b.*|.*\bsource|torsion\.(modes|trials.*)")

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.results import Results
 from crankwork.dynamics.reduction import reduced_torque
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
@@ -22,9 +23,6 @@ from crankwork.loads.valves import inlet_flow, isothermal_efficiency
 from crankwork.preparation.cylinder_gas import cycle_values
 from crankwork.preparation.linkage import speed_of
 from crankwork.preparation.prepared import PreparedLinkage
-
-if TYPE_CHECKING:
-    from crankwork.analysis.results import Results
 
 _STEP = 1.0
 # behind a corner of the pressure, where there may be a jump [deg]

@@ -210,9 +210,8 @@ def _forces(solved: TracedCylinder, over: CycleInterpolant) -> dict[str, TracedV
         if solved.machine.angular_acceleration:
             # the torque that accelerates the parts is not periodic
             mean = gas_formulas.mean_torque(indicated["indicated_work"], cycle).named("mean_torque")
-        valves = solved.machine.gas.valves if solved.machine.gas is not None else None
-        if valves is not None:
-            stated = StatedValves(valves, "gas.valves")
+        if solved.space.gas.valves is not None:
+            stated = StatedValves(solved.space.gas.valves, "gas.valves")
             values |= stated.drawn(trace["clearance_volume"], trace["swept_volume"])
             engine = solved.machine.engine
             if engine is None or len(engine.layout.places) == 1:
@@ -253,14 +252,15 @@ def _checks(
         result |= joint_force_residuals(solved, samples)
         if "reduced_inertia" in dense:
             result["torque_of_energy"] = relative_difference(dense["crank_torque"], _torque_of_energy(solved, dense))
-    if solved.space is not None and not solved.machine.angular_acceleration:
+    if (space := solved.space) is None:
+        return result
+    if not solved.machine.angular_acceleration:
         work = over.mean("crank_torque", "mean_torque").value * math.radians(solved.machine.cycle)
         result["work"] = abs(work - summary["indicated_work"]) / moved_work(solved, summary)
-    valves = solved.machine.gas.valves if solved.machine.gas is not None else None
-    if valves is not None and solved.space is not None:
-        work = StatedValves(valves, "gas.valves").work(solved.space.clearance, solved.space.swept)
-        result["valves"] = abs(summary["indicated_work"] - solved.space.factor * work) / abs(work)
-    calculated = solved.space.calculated if solved.space is not None else None
+    if space.gas.valves is not None:
+        work = StatedValves(space.gas.valves, "gas.valves").work(space.clearance, space.swept)
+        result["valves"] = abs(summary["indicated_work"] - space.gas.factor * work) / abs(work)
+    calculated = space.calculated
     if calculated is not None and "first_law_residual" in calculated.values:
         residual, heat = calculated.values["first_law_residual"], calculated.values["fuel_heat"]
         result["first_law"] = abs(residual) / max(heat, moved_work(solved, summary))

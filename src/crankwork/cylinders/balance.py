@@ -199,7 +199,7 @@ def shaft_forces(weights: Sequence[ShaftWeight], speed: float, *, about: float =
     """
     forces = []
     for weight in weights:
-        force = _force(weight, speed)
+        force = weight.mass_moment * (weight.order * speed) ** 2 * complex(unit_vectors(weight.angle))
         forward, backward = (force, 0j) if weight.sense > 0 else (0j, force)
         arm = weight.position - about
         forces.append(OrderBalance(weight.order, Ellipse(forward, backward), Ellipse(arm * forward, arm * backward)))
@@ -214,8 +214,3 @@ def _needed(force: complex, moment: complex, planes: tuple[float, ...]) -> tuple
     # a moment is a force at one end and its opposite at the other
     couple = moment / (second - first) if second != first else 0j
     return in_two_planes([force, -couple, couple], [0.0, first, second], (first, second))
-
-
-def _force(weight: ShaftWeight, speed: float) -> complex:
-    """Return the force of a weight at crank angle zero."""
-    return weight.mass_moment * (weight.order * speed) ** 2 * complex(unit_vectors(weight.angle))

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.errors import CrankworkError
@@ -105,14 +105,10 @@ def oil_hole(sums: ArrayLike) -> OilHole:
     if np.all(at_least):
         return OilHole(0.0, 360.0, least)
     starts = np.flatnonzero(at_least & ~np.roll(at_least, 1)).tolist()
-    arcs = [(start, _length(at_least, start)) for start in starts]
+    # as many chosen rays as follow each other from there, around the circle
+    arcs = [(start, int(np.argmin(np.roll(at_least, -start)))) for start in starts]
     start, length = max(arcs, key=lambda arc: (arc[1], -sums[arc[0] - 1] - sums[(arc[0] + arc[1]) % rays]))
     return OilHole(float((start + (length - 1) / 2) * step % 360), length * step, least)
-
-
-def _length(chosen: NDArray[np.bool], start: int) -> int:
-    """Return how many chosen rays follow each other from `start`, around the circle."""
-    return int(np.argmin(np.roll(chosen, -start)))
 
 
 class LoadReversal(NamedTuple):

@@ -9,7 +9,7 @@ import numbers
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from crankwork import files, units
 from crankwork.description.keys import OF_LINKAGE
@@ -28,15 +28,12 @@ from crankwork.description.toml_edit import document, locate, with_value, withou
 from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader
 from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from crankwork.locale import ErrorMessage
+from crankwork.machine import Machine
 
 _DECIMAL = r"[0-9]+(?:[.,][0-9]+)?"
 _FOLLOWING = re.compile(
     rf"(?:(?P<factor>-?{_DECIMAL})\s*[*·×]\s*)?(?P<key>[a-z][^\s*/+]*\.[^\s*/+]+)(?:\s*/\s*(?P<divisor>{_DECIMAL}))?"
 )
-
-
-if TYPE_CHECKING:
-    from crankwork.machine import Machine
 
 _SAME = 1e-9
 # keys that determine a key which the file does not state

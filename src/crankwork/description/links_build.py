@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -32,7 +33,6 @@ from crankwork.description.range_checks import (
     fitting,
     geometry_of,
     position_notices,
-    with_crank_range,
     with_starts,
     without_redundant,
     without_unshared,
@@ -41,6 +41,8 @@ from crankwork.description.schema import Values, no_effect_message, stated_numbe
 from crankwork.description.stages_build import stage_valves
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.dynamics.reduction import TabulatedBody
+from crankwork.errors import GeometryError
+from crankwork.kinematics.crank_range import pass_change_points
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfCycle, Vessel
 from crankwork.loads.curves import LoadCurve as LoadTable
 from crankwork.loads.indicator import DiagramError
@@ -108,7 +110,10 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
     transient = _transient(values, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
-    mechanism, crank_range = with_crank_range(mechanism)
+    crank_range = None
+    # what cannot be assembled is reported later
+    with suppress(GeometryError):
+        mechanism, crank_range = pass_change_points(mechanism)
     redundant = fitting(linkage, carried, values, reader)
     if reader.problems:
         return None

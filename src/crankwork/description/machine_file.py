@@ -12,7 +12,7 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from crankwork import files
 from crankwork.description import keys as engine_files
@@ -61,14 +61,12 @@ from crankwork.description.value_types import Reader, is_one_line, look_alikes
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import LANGUAGES, ErrorMessage, Language, translate
+from crankwork.machine import FileInputs, Machine
 from crankwork.preparation.cylinders import each_cylinder
 from crankwork.preparation.prepared import PreparedCylinder, prepare
 from crankwork.resources import read_resource, resource_names
 from crankwork.units import TO_LATIN
 from crankwork.working_cycle.schools import SCHOOLS
-
-if TYPE_CHECKING:
-    from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
 _ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE, engine_files.OFFSET_FILE)
@@ -297,33 +295,23 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
 
 def _of_kind(keys: TableSpec, read_values: Values, reader: Reader) -> Machine | None:
     """Return the machine of values that were read, or None after complaints."""
-    if keys is TORSION_FILE:
-        from crankwork.description.torque_build import build_torsion_alone  # noqa: PLC0415 - few files load it
+    if keys in (TORSION_FILE, TURNING_FILE, PRESS_FILE, ROTOR_FILE):
+        from crankwork.description import torque_build  # noqa: PLC0415 - few files load it
 
-        return build_torsion_alone(read_values, reader)
-    if keys in (TURNING_FILE, PRESS_FILE):
-        # most files do not load it
-        from crankwork.description.torque_build import build_turning  # noqa: PLC0415 - loaded where it is needed
-
-        return build_turning(read_values, reader)
+        if keys is ROTOR_FILE:
+            return torque_build.build_rotor(read_values, reader)
+        build = torque_build.build_torsion_alone if keys is TORSION_FILE else torque_build.build_turning
+        return build(read_values, reader)
     if keys == STAGES_FILE:
         from crankwork.description.stages_build import build_compressor  # noqa: PLC0415 - loaded where it is needed
 
         return build_compressor(read_values, reader)
-    if keys is ROTOR_FILE:
-        from crankwork.description.torque_build import build_rotor  # noqa: PLC0415 - loaded where it is needed
-
-        return build_rotor(read_values, reader)
     if keys in _LINKAGES:
         # an engine starts faster without these modules
-        from crankwork.description.links_build import (  # noqa: PLC0415 - loaded where it is needed
-            build_linkage,
-            build_tabulated,
-        )
+        from crankwork.description import links_build  # noqa: PLC0415 - loaded where it is needed
 
-        if keys in _TABULATED:
-            return build_tabulated(read_values, reader)
-        return build_linkage(read_values, reader)
+        build = links_build.build_tabulated if keys in _TABULATED else links_build.build_linkage
+        return build(read_values, reader)
     if keys in (TEST_FILE, CLUTCH_FILE):
         return (build_test if keys is TEST_FILE else build_clutch)(read_values, reader)
     return _solvable(build_machine(read_values, reader), read_values, reader)

@@ -50,14 +50,6 @@ _MOST_UNSHARED, _MOST_TRIED = 3, 100
 _ROUGHLY = 0.25
 
 
-def with_crank_range(mechanism: Mechanism) -> tuple[Mechanism, CrankRange | None]:
-    """Return a linkage that passes its change points, and its crank range; if not assembled, that is reported later."""
-    try:
-        return pass_change_points(mechanism)
-    except GeometryError:
-        return mechanism, None
-
-
 def explain_redundant(linkage: Linkage, problems: list[Problem]) -> list[Problem]:
     """Return problems; that of a redundant link says whether the link fits while the other links move."""
     return [

@@ -393,7 +393,9 @@ class Block:
     def range(self, reduction: KernelValue) -> tuple[Extreme, Extreme]:
         """Return the extremes of the work of a column, or of the axis intercepts of tangents of a mass-energy curve."""
         if reduction not in self._ranges:
-            above = below = self._work(self.column(reduction.operands[0]))
+            column = self.column(reduction.operands[0])
+            mean = self.reductions.integrals(column)[:, None] / self.cycle
+            above = below = self.reductions.running(column - mean)
             if reduction.detail == "tangents":
                 # the work of a load is negative
                 inertia, *slopes = map(self.column, reduction.operands[1:])
@@ -418,10 +420,6 @@ class Block:
     def column(self, value: KernelValue) -> Array:
         """Return a column, shape (1, angles, lanes)."""
         return self._stored[[self._source.columns(value.index)]]
-
-    def _work(self, column: Array) -> Array:
-        """Return the integral of a column about its mean, over the angles."""
-        return self.reductions.running(column - self.reductions.integrals(column)[:, None] / self.cycle)
 
     def extreme(self, reduction: KernelValue) -> tuple[Extreme, bool]:
         """Return the extreme of a column, or of its square, and whether the reduction is its angle."""

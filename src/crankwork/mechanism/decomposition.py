@@ -173,10 +173,6 @@ class _Order:
                 message = ErrorMessage("branch_absent" if choice else "branch_none", name=name, known=choice)
                 self.problems.append(Problem(f"branch.{name}", message))
 
-    def _joints(self, member: Member) -> list[str]:
-        """Return the points of a member that are joints."""
-        return [name for name in member.points if len(self.linkage.owners[name]) > 1] or list(member.points)
-
     def _drawn_ends(self, cylinder: Member) -> dict[str, Point]:
         """Return the drawn ends of a cylinder, which are points of other links."""
         drawn_points, ends = self.linkage.at_zero(), {}
@@ -217,11 +213,9 @@ class _Order:
             anchor = next((name for name in member.points if name in drawn), None)
             if anchor is None or (not member.guide and sum(name in drawn for name in member.points) < 2):
                 key = f"{'sliders' if member.guide else 'links'}.{member.name}"
-                self.problems.append(
-                    Problem(
-                        key, ErrorMessage("positions_needed", name=member.name, joints=", ".join(self._joints(member)))
-                    )
-                )
+                outer = [name for name in member.points if len(self.linkage.owners[name]) > 1] or list(member.points)
+                message = ErrorMessage("positions_needed", name=member.name, joints=", ".join(outer))
+                self.problems.append(Problem(key, message))
                 continue
             angle, (u, v) = self._drawn_angle(member.name, drawn), member.points[anchor]
             cos, sin = math.cos(angle), math.sin(angle)

@@ -6,14 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, Law, LinkMotor
-from crankwork.mechanism.dyads import RRP
-
-if TYPE_CHECKING:
-    from crankwork.mechanism.dyads import Bar, Branch, Chain, ChangePointPassage, Dyad, Point
-
+from crankwork.mechanism.dyads import RRP, Bar, Branch, Chain, ChangePointPassage, Dyad, Point
 
 _TURN = 360.0
 # largest period in turns of the crank, and tolerance of a gear ratio that is one of integers

@@ -68,7 +68,8 @@ class _Reader:
         drawn = Linkage(driver, ground, (), positions=positions, driving=driving, geared=geared).at_zero()
         links = tuple(self._links(drawn))
         members = (*links, *(slider for slider in sliders if slider.name != driving.name))
-        linkage = Linkage(driver, ground, members, guides, self._branches(), positions, driving, geared)
+        branches: dict[str, Branch] = {name: 1 if value == 1 else -1 for name, value in self._table("branch").items()}
+        linkage = Linkage(driver, ground, members, guides, branches, positions, driving, geared)
         self._names(linkage)
         if self.problems or not named:
             return linkage
@@ -350,9 +351,6 @@ class _Reader:
             self._problem(f"{key}.through", ErrorMessage("through_unknown", name=through))
             point = (0.0, 0.0)
         return Guide(point, table.get("angle", 0.0), link)
-
-    def _branches(self) -> dict[str, Branch]:
-        return {name: 1 if value == 1 else -1 for name, value in self._table("branch").items()}
 
     def _names(self, linkage: Linkage) -> None:
         """Report names that are used twice or unknown."""

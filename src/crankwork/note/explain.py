@@ -116,7 +116,7 @@ def explanation(
         value = 0.0
     where = "" if at is None or is_constant else f"({places(degrees)})"
     shown = " = ".join([f"{value_symbol(display_key(key, results), language)}{where}", *_values(key, value, language)])
-    head = [f"{capital(label(display_key(key, results), language)) if _has_label(key) else key}: {shown}"]
+    head = [f"{capital(label(display_key(key, results), language)) if base_key(key) in QUANTITIES else key}: {shown}"]
     head += list(_acting(key, results, language))
     if explained is None:
         return "\n".join([*head, "", translate("explain.no_memory", language)]) + "\n"
@@ -160,10 +160,6 @@ def _shown_rows(results: Results) -> list[float]:
 def place_text(origin: Origin, language: Language) -> str:
     """Return where the machine file states a value, in words."""
     return translate(f"explain.{origin.kind}", language, path=origin.path, line=origin.line)
-
-
-def _has_label(key: str) -> bool:
-    return base_key(key) in QUANTITIES
 
 
 def _angle(degrees: float, language: Language) -> str:
@@ -222,7 +218,7 @@ class _Printed:
         current: float | None = None
         printed: dict[str, None] = {}
         for entry in moving:
-            angle = self._angle_of(entry)
+            angle = entry.known.node.at if isinstance(entry.known.node, ProcedureValue) else entry.degrees
             if angle is not None and angle != current:
                 yield from ("", self._places.at(angle))
                 current, printed = angle, {}
@@ -234,10 +230,6 @@ class _Printed:
         if self._sources:
             yield from ("", translate("explain.sources", self._language))
             yield from (f"  [{count}] {cite(source)}" for source, count in self._sources.items())
-
-    def _angle_of(self, entry: ExplainedValue) -> float | None:
-        """Return the crank angle that a line belongs to."""
-        return entry.known.node.at if isinstance(entry.known.node, ProcedureValue) else entry.degrees
 
     def _section(self, title: str, entries: Iterable[ExplainedValue]) -> Iterator[str]:
         lines = dict.fromkeys(self._lines(entries))
@@ -321,7 +313,8 @@ class _Printed:
                 parts.append(translate("explain.root", language))
             case AngleUnwrap():
                 parts.append(translate("explain.half_turns", language))
-        return " = ".join(_once([*parts, *self._own_values(entry)])) + self._held(entry)
+        parts += [value_text(*pair, self._language) for pair in self._shown(entry)]
+        return " = ".join(_once(parts)) + self._held(entry)
 
     def _found(self, word: str, operands: tuple[TracedValue, ...], angle: float | None) -> str:
         """Return a procedure and its operands as text, with the keys of columns that are not followed here."""
@@ -333,9 +326,6 @@ class _Printed:
         words = translate(f"memory.{word}", self._language)
         where = "" if angle is None else translate("explain.where", self._language, angle=self._places(angle))
         return f"{words}{f' ({columns})' if columns else ''}{where}"
-
-    def _own_values(self, entry: ExplainedValue) -> list[str]:
-        return [value_text(*pair, self._language) for pair in self._shown(entry)]
 
     def _shown(self, entry: ExplainedValue) -> list[tuple[float, str]]:
         """Return a value in the units in which it is printed, each with its unit."""

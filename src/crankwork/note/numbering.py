@@ -192,7 +192,7 @@ def flow(
             # no derivation is divided by what it does not need
             inside = k and isinstance(block, Equation) and isinstance(blocks[k - 1], Equation)
             ready = () if inside else _ready(waiting, blocks)
-            place = next((place for place in ready if _fits_here(filled, heights[place], most)), None)
+            place = next((place for place in ready if _left(filled, heights[place]).max() <= most), None)
             if place is None and (waited <= _LONG or _left(filled, heights[waiting[0]]).mean() > _EMPTY):
                 break
             place = waiting[0] if place is None else place
@@ -232,11 +232,6 @@ def _share_of_size(block: Block, height: float, free: float) -> float:
 def _left(filled: Array, height: float) -> Array:
     """Return the empty height of a page on which a figure is placed. [pt]"""
     return np.where(filled + height > PAGE, PAGE - filled, 0.0)
-
-
-def _fits_here(filled: Array, figure: float, most: float) -> bool:
-    """Return whether a waiting figure leaves little empty where it is placed here."""
-    return bool(_left(filled, figure).max() <= most)
 
 
 def _after(filled: Array, block: Block, high: Array) -> Array:

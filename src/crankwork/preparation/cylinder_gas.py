@@ -54,34 +54,31 @@ def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKin
     trace = moving.trace
     area = trace["piston_area"]
     volume = gas.cylinder_volume(trace["clearance_volume"], area, trace["piston_displacement"])
-    of_cycle = traced_pressure(space.diagram, volume, _path(solved), _general_form(solved, space, trace, volume))
-    read, stated_gas = of_cycle, solved.machine.gas
-    if stated_gas is not None and stated_gas.calculated is not None:
+    of_cycle = traced_pressure(space.diagram, volume, space.gas.path, _general_form(solved, space, trace, volume))
+    read, stated_gas = of_cycle, space.gas
+    if stated_gas.calculated is not None:
         # a calculated cycle begins at 0, whole turns earlier than its chamber
         read = delayed(of_cycle, stated_gas.delay, stated_gas.cycle, of_cycle.key)
-    path = stated_gas.factor_path if stated_gas is not None else ""
-    pressure = pressure_on_piston(read, (space.ambient, _ambient(solved)), (space.factor, path))
+    ambient = "gas.ambient" if stated_gas.calculated is None else "cycle.ambient_pressure"
+    pressure = pressure_on_piston(read, (space.ambient, ambient), (stated_gas.factor, stated_gas.factor_path))
     back, rod_area = absent(""), absent("")
-    if space.rod_area:
-        diameter = given("piston_rod_diameter", _rod_diameter(solved), "cylinder.piston_rod_diameter")
+    if rod := space.cylinder.piston_rod_diameter:
+        diameter = given("piston_rod_diameter", rod, "cylinder.piston_rod_diameter")
         rod_area = gas.piston_area(solved.method.pi, diameter).named("piston_area.rod")
-        back = given("back_pressure", space.back_pressure, "gas.back_pressure")
+        back = given("back_pressure", stated_gas.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
-    values = {item.key: item for item in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
-    return values | _filling(solved, space, (of_cycle, volume), _dead_centres(solved, trace))
+    values = {item.key: item for item in (volume, read, pressure, force)} | _ends_of_polytropes(space, volume)
+    return values | _filling(space, (of_cycle, volume), _dead_centres(solved, trace))
 
 
 def _filling(
-    solved: PreparedCylinder,
-    space: WorkingSpace,
-    columns: tuple[TracedValue, TracedValue],
-    dead_centres: tuple[Value, Value],
+    space: WorkingSpace, columns: tuple[TracedValue, TracedValue], dead_centres: tuple[Value, Value]
 ) -> dict[str, TracedValue]:
     """Return the filling factor of a rounded diagram."""
-    key, given_gas = "filling_factor.diagram", solved.machine.gas
-    if space.calculated is None or key not in space.calculated.trace or given_gas is None:
+    key = "filling_factor.diagram"
+    if space.calculated is None or key not in space.calculated.trace:
         return {}
-    filling = getattr(given_gas.calculated, "filling_factor", None)
+    filling = getattr(space.gas.calculated, "filling_factor", None)
     return {} if filling is None else {key: filling(space.calculated.trace[key].value, columns, dead_centres)}
 
 
@@ -89,15 +86,17 @@ def _general_form(
     solved: PreparedCylinder, space: WorkingSpace, trace: Mapping[str, TracedValue], volume: TracedValue
 ) -> Callable[[], TracedValue] | None:
     """Return the general form of the pressure in traced inputs, if there are formulas for it."""
-    given_gas = solved.machine.gas
-    if given_gas is None or given_gas.measured is not None:
+    given_gas = space.gas
+    if given_gas.measured is not None:
         return None
     if given_gas.calculated is not None:
         traced = given_gas.calculated.traced
         return None if traced is None else partial(traced, volume, _dead_centres(solved, trace))
     size = trace["clearance_volume"], trace["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
-    data = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
+    data = DiagramInput(
+        given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved, given_gas.delay)
+    )
     return partial(data.general_form, space.diagram)
 
 
@@ -108,20 +107,13 @@ def _dead_centres(solved: PreparedCylinder, trace: Mapping[str, TracedValue]) ->
     return top, bottom
 
 
-def _begins(solved: PreparedCylinder) -> Value:
+def _begins(solved: PreparedCylinder, delay: float) -> Value:
     """Return the crank angle that the points of a diagram count from, traced where it depends on lengths. [deg]"""
-    delay = solved.machine.gas.delay if solved.machine.gas is not None else 0.0
     if not (solved.counts_from_top and solved.stroke[1]):
         return delay
     r, l, e = solved.moving.lengths  # noqa: E741
     top = top_dead_centre_angle(e, l, r) * (180 / math.pi)
     return top + delay if delay else top
-
-
-def _ambient(solved: PreparedCylinder) -> str:
-    """Return where the pressure on the crankcase side is stated."""
-    is_calculated = solved.machine.gas is not None and solved.machine.gas.calculated is not None
-    return "cycle.ambient_pressure" if is_calculated else "gas.ambient"
 
 
 def gas_of_cylinder(solved: PreparedCylinder) -> dict[str, TracedValue]:
@@ -135,7 +127,7 @@ def gas_of_cylinder(solved: PreparedCylinder) -> dict[str, TracedValue]:
 
 def work_of_gas(trace: Mapping[str, TracedValue], space: WorkingSpace) -> TracedValue:
     """Return the work that the gas does in a cycle: the area of the diagram."""
-    pressure = trace["diagram_pressure" if space.factor == 1 else "gas_pressure"]
+    pressure = trace["diagram_pressure" if space.gas.factor == 1 else "gas_pressure"]
     return TracedValue(ProcedureValue(space.work, "work", (pressure, trace["cylinder_volume"])), "indicated_work")
 
 
@@ -151,19 +143,10 @@ def indicated_values(
     }
 
 
-def _path(solved: PreparedCylinder) -> str:
-    """Return where the diagram is stated."""
-    return solved.machine.gas.path if solved.machine.gas is not None else ""
-
-
-def _rod_diameter(solved: PreparedCylinder) -> float:
-    return solved.machine.cylinder.piston_rod_diameter if solved.machine.cylinder is not None else 0.0
-
-
-def _ends_of_polytropes(solved: PreparedCylinder, space: WorkingSpace, volume: TracedValue) -> dict[str, TracedValue]:
+def _ends_of_polytropes(space: WorkingSpace, volume: TracedValue) -> dict[str, TracedValue]:
     """Return volume and pressure at the ends of each polytrope of a diagram that was given by its points."""
-    given_gas, values = solved.machine.gas, dict[str, TracedValue]()
-    if given_gas is None or given_gas.measured is not None or given_gas.calculated is not None:
+    given_gas, values = space.gas, dict[str, TracedValue]()
+    if given_gas.measured is not None or given_gas.calculated is not None:
         return values
     for segment in space.diagram.segments:
         if segment.law != "polytropic" or not segment.origin:

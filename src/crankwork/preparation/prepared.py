@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
+from crankwork.cylinders.articulated import ArticulatedRod, articulated_stroke
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.errors import CrankworkError
 from crankwork.formula.replay import Program
@@ -27,7 +28,6 @@ from crankwork.preparation import traced_inputs
 from crankwork.preparation.piston_kinematics import CylinderKinematics, moving_cylinder
 
 if TYPE_CHECKING:
-    from crankwork.cylinders.articulated import ArticulatedRod
     from crankwork.working_cycle.calculated_cycle import Calculated
 
 
@@ -44,16 +44,19 @@ class Notice(NamedTuple):
 class WorkingSpace(NamedTuple):
     """The cylinder as solved for one method: areas [m2], volumes [m3], pressures [Pa], work [J]."""
 
+    gas: Gas
+    cylinder: Cylinder
     area: float
     clearance: float
     swept: float
     diagram: IndicatorDiagram
-    ambient: float
     work: float
-    rod_area: float = 0.0
-    back_pressure: float = 0.0
     calculated: Calculated | None = None
-    factor: float = 1.0
+
+    @property
+    def ambient(self) -> float:
+        """The pressure on the crankcase side that the diagram counts in, zero for gauge pressures."""
+        return self.gas.ambient if self.gas.is_absolute else 0.0
 
     @property
     def theoretical(self) -> IndicatorDiagram | None:
@@ -63,7 +66,7 @@ class WorkingSpace(NamedTuple):
 
     def gauge(self, pressure: Array) -> Array:
         """Return the gauge pressure on the piston where that of the diagram is known. [Pa]"""
-        return (pressure - self.ambient) * self.factor
+        return (pressure - self.ambient) * self.gas.factor
 
 
 @dataclass(frozen=True)
@@ -121,8 +124,6 @@ class PreparedCylinder(PreparedMachine):
         """Stroke [m], and the crank angles of top and bottom dead centre [deg]."""
         if self.articulated_rod is None:
             return (self.lengths.stroke, *dead_centres(self.lengths))
-        from crankwork.cylinders.articulated import articulated_stroke  # noqa: PLC0415 - few engines have such rods
-
         result = articulated_stroke(self.lengths, self.articulated_rod)
         return result.stroke, result.top_angle, result.bottom_angle
 
@@ -172,7 +173,6 @@ def _with_space(solved: _Cylinder, notices: list[Notice]) -> _Cylinder:
     stroke, top, bottom = solved.stroke
     swept = float(gas_formulas.swept_volume(area, stroke))
     clearance = _clearance(cylinder, swept)
-    ambient = gas.ambient if gas.is_absolute else 0.0
 
     position = Program({"": solved.moving.trace["piston_displacement"]})
     rate = Program({"": solved.moving.trace["piston_transfer_1"]})
@@ -197,9 +197,8 @@ def _with_space(solved: _Cylinder, notices: list[Notice]) -> _Cylinder:
         ends = ((top - begins) % _TURN, (bottom - begins) % _TURN) if begins else (top, bottom)
         diagram = _given_diagram(gas, lambda degrees: volume_at(degrees + begins), ends, notices).later(begins)
         notices += [Notice("jump", {"point": name, "angle": phi, "step": step}) for name, phi, step in diagram.jumps]
-    rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
-    work, of_rod = gas.factor * diagram.work(volume_at), (rod_area, gas.back_pressure)
-    space = WorkingSpace(area, clearance, swept, diagram, ambient, work, *of_rod, calculated, gas.factor)
+    work = gas.factor * diagram.work(volume_at)
+    space = WorkingSpace(gas, cylinder, area, clearance, swept, diagram, work, calculated)
     return replace(solved, space=space, notices=tuple(notices))
 
 

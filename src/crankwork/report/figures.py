@@ -754,7 +754,7 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
     room = (_TALLEST_NOTE - LEGEND_ROW * len(rows)) / len(keys) - 1.5 * _BETWEEN
     upper, lower = (min(most, share * room) for most, share in ((_UPPER, 0.63), (_LOWER, 0.37)))
     paper, box = sheet(len(keys) * (upper + lower + 1.5 * _BETWEEN) - _BETWEEN, rows)
-    abscissas = _across(results, degrees)
+    abscissas = degrees * results.period / 360.0 if results.period else degrees
     top = box.top
     for key in keys:
         scale, unit = displayed(key, 1.0, per_area=area), unit_name(key_unit(key, per_area=per_area), language)
@@ -802,10 +802,6 @@ def _looks(names: tuple[str, ...]) -> list[tuple[str, Dashes, str]]:
     return [
         (name, STYLES[min(index, len(STYLES) - 1)], _COLOURS[index % len(_COLOURS)]) for index, name in enumerate(names)
     ]
-
-
-def _across(results: Results, degrees: Array) -> Array:
-    return degrees * results.period / 360.0 if results.period else degrees
 
 
 def _x_title(results: Results, language: Language) -> str:

@@ -61,20 +61,20 @@ def pressure(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def diagram(engine: Drawn) -> tuple[str, Array]:
     """Return the key of what diagrams show, the absolute pressure where the ambient one is known, and its values."""
     space = engine.results.solved.space
-    key = "diagram_pressure" if space.ambient and space.factor == 1 else "gas_pressure"
+    key = "diagram_pressure" if space.ambient and space.gas.factor == 1 else "gas_pressure"
     return key, _above_zero(engine, engine.values("gas_pressure"))
 
 
 def _above_zero(engine: Drawn, gauge: Array) -> Array:
     """Return pressures as diagrams show them where those above the ambient pressure are known. [display unit]"""
     space = engine.results.solved.space
-    return gauge + (engine.shown("ambient_pressure", space.ambient) if space.factor == 1 else 0.0)
+    return gauge + (engine.shown("ambient_pressure", space.ambient) if space.gas.factor == 1 else 0.0)
 
 
 def _ambient(engine: Drawn) -> list[Row]:
     """Return the name of the line of the ambient pressure, if diagrams have one."""
     space = engine.results.solved.space
-    is_drawn = space.ambient and space.factor == 1
+    is_drawn = space.ambient and space.gas.factor == 1
     return [Row(engine.stated("ambient_pressure", space.ambient), DASH_DOT, 0.45)] if is_drawn else []
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from crankwork.analysis import Results
 from crankwork.analysis.assembly_modes import MOST_SIGNED, AssemblyMode, AssemblyModes
@@ -13,6 +13,7 @@ from crankwork.locale import ErrorMessage, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import LinkMotor
+from crankwork.mechanism.structure import Structure, structure
 from crankwork.quantities import SUBJECTS, Language, subject
 from crankwork.report.display import (
     display_key,
@@ -28,10 +29,6 @@ from crankwork.report.display import (
 from crankwork.report.notices import assumption_texts, idle_texts, notice_text, screen_lines, sentence_lists
 from crankwork.report.tables import comparison_data, comparison_text
 from crankwork.version import __version__
-
-if TYPE_CHECKING:
-    from crankwork.machine import Machine
-    from crankwork.mechanism.structure import Structure
 
 
 def provenance_data(results: Results) -> dict[str, str]:
@@ -234,9 +231,6 @@ def _crank_gear_lines(machine: Machine, summary: Mapping[str, float], language: 
 
 def _drawing_lines(machine: Machine, language: Language) -> list[str]:
     """Return mobility, groups and formula of structure of a linkage as it was drawn."""
-    # engines load none of this
-    from crankwork.mechanism.structure import structure  # noqa: PLC0415
-
     analysed, _ = structure(machine.drawn)
     if analysed is None:
         return [translate("check.linkage", language)]

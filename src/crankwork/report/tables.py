@@ -147,16 +147,12 @@ def comparison_text(results: Results, language: Language = "en", *, per_area: bo
     for key, values in comparison_rows(results, per_area=per_area).items():
         unit = unit_name(key_unit(key, per_area=per_area), language)
         name = label(display_key(key, results) if key in results.trace else key, language)
-        table.append([name, unit, *(_shown(value, language) for value in values)])
+        table.append([name, unit, *(_NONE if math.isnan(value) else number(value, language) for value in values)])
     return "\n".join([translate(_heading(compared), language), *_aligned(table)])
 
 
 def _heading(compared: Comparison) -> str:
     return "report.methods_compared" if compared.is_of_methods else "report.machines_compared"
-
-
-def _shown(value: float, language: Language) -> str:
-    return _NONE if math.isnan(value) else number(value, language)
 
 
 def _aligned(table: list[list[str]]) -> list[str]:

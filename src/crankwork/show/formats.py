@@ -269,7 +269,7 @@ def _add_fill(space: Any, fill: float | None, around: Array) -> None:  # noqa: A
     """Fill an area; white hides the items below it."""
     points = [(float(x), float(y)) for x, y in around]
     if fill is not None and fill < 1:
-        filled = space.add_hatch(color=_shade(fill), dxfattribs={"layer": "HATCH"})
+        filled = space.add_hatch(color=_BLACK if fill < 0.3 else _PALE, dxfattribs={"layer": "HATCH"})
         filled.paths.add_polyline_path(points, is_closed=True)
     elif fill is not None:
         space.add_wipeout(points, dxfattribs={"layer": "CLEARED"})
@@ -311,11 +311,6 @@ def _coded(run: Run) -> str:
         return rf"{{\Q{_SLANT:g};{text}}}" if run.is_slanted else text
     text = text.replace("^", "\\^").replace(";", "\\;").replace("/", "\\/").replace("#", "\\#")
     return rf"{{\H{0.7:g}x;\S^ {text};}}" if run.shift < 0 else rf"{{\H{0.7:g}x;\S{text}^ ;}}"
-
-
-def _shade(fill: float) -> int:
-    """Return the colour of a fill."""
-    return _BLACK if fill < 0.3 else _PALE
 
 
 FORMATS: dict[str, Callable[[Drawing, Theme], bytes]] = {"svg": svg, "pdf": pdf, "png": png, "dxf": dxf}

@@ -48,9 +48,12 @@ from crankwork.show.scene import Drawing
 from crankwork.show.theme import alt_text
 from crankwork.studio.form import additions, form, stated_text, with_addition
 from crankwork.studio.sketch import dyads, from_pmks, handles, is_pmks, measured, missing, redrawn, sketched, swapped
-from crankwork.study.figures import map_drawings
+from crankwork.study.figures import found_drawings, map_drawings
 from crankwork.study.parameter_map import ends_of, map_text, mapped
+from crankwork.study.runner import ExecutionOptions, run_study
 from crankwork.study.sliders import around, ends, moved
+from crankwork.study.study_file import read_study
+from crankwork.study.study_text import found_text
 from crankwork.units import from_si, use_units
 
 SHARE = "crankwork:"
@@ -578,11 +581,6 @@ def _swept(
     description: Description, over: Mapping[str, str], request: Mapping[str, Any], language: Language,
     progress: Callable[[float], None],
 ) -> dict[str, Any]:  # fmt: skip
-    from crankwork.study.figures import found_drawings  # noqa: PLC0415 - only sweeps need its parts
-    from crankwork.study.runner import ExecutionOptions, run_study  # noqa: PLC0415
-    from crankwork.study.study_file import read_study  # noqa: PLC0415
-    from crankwork.study.study_text import found_text  # noqa: PLC0415
-
     ends = {key: dict(zip(("from", "to"), ends_of(text), strict=True)) for key, text in over.items()}
     if not re.fullmatch("[0-9]{1,9}", str(request["count"])):
         raise CrankworkError(ErrorMessage("whole_range", value=str(request["count"])[:20], low="1", high="1000000"))

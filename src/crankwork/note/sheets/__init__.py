@@ -111,7 +111,7 @@ def _pictures(results: Results, machine: Drawn, language: Language, chosen: Sequ
             # one and the same curve to two scales: schools draw one of them
             known.pop("total_torque" if language == "vi" else "total_tangential_force")
         space = results.solved.space
-        if "indicator" in known and space.factor == 1:
+        if "indicator" in known and space.gas.factor == 1:
             # the pressure at one scale over volume and angle, with its circle
             known = {"indicator_brix": partial(indicator_brix, machine), **known}
             for name in () if chosen else ("indicator", "pressure", "brix"):
