@@ -16,9 +16,9 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "f4b474cf9fab",
-    "formulas": "7590ac5349b7",
-    "quantities": "576fc24cdf09",
+    "symbols": "7f7a64c0b817",
+    "formulas": "dea2d8fdd5c6",
+    "quantities": "4e35b47a7a14",
     "defaults": "59fd6ef75afd",
 }
 

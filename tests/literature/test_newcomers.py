@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pytest
 
+from crankwork.errors import CrankworkError
 from each import for_each
 from machine_texts import analysed
 
@@ -147,3 +148,42 @@ follower = { guide = "line", mass = "2 kg" }
     assert results["driver_velocity_max"] == pytest.approx(0.02 * math.pi / 0.06, rel=1e-9)
     assert results["driver_velocity_min"] == pytest.approx(-2 * 0.04 / 0.06, rel=1e-9)
     assert results["driver_force_max"] == pytest.approx(2 * max(rise, 4 * 0.04 / 0.06**2), rel=1e-9)
+
+
+WILLANS = """
+format = 2
+crank = { stroke = "120 mm", speed = "1500 rpm" }
+cylinder.bore = "100 mm"
+[test]
+cylinders = 4
+load_powers = ["10 kW", "20 kW", "30 kW", "40 kW"]
+load_fuel_rates = ["4 kg/h", "6.1 kg/h", "8 kg/h", "10.1 kg/h"]
+effective_power = "40 kW"
+"""
+
+
+def test_losses_by_the_line_of_willans() -> None:
+    results = analysed(WILLANS)
+    slope, idle = np.polyfit([10, 20, 30, 40], [4, 6.1, 8, 10.1], 1)
+    assert results["load_fuel_slope"] * 3.6e9 == pytest.approx(1000 * slope, rel=1e-9)
+    assert results["idle_fuel_rate"] * 3600 == pytest.approx(idle, rel=1e-9)
+    assert results["mechanical_efficiency"] == pytest.approx(40 / (40 + idle / slope), rel=1e-9)
+
+
+def test_a_measured_indicated_power_is_not_overruled_by_the_line() -> None:
+    results = analysed(WILLANS + 'indicated_power = "52 kW"\n')
+    assert results["mechanical_loss_power"] == pytest.approx(12e3)
+    assert results["willans_loss_power"] == pytest.approx(9900.990099, rel=1e-9)
+
+
+@for_each(
+    "rates",
+    [
+        '"4 kg/h", "6 kg/h", "8 kg/h"',
+        '"10 kg/h", "8 kg/h", "6 kg/h", "4 kg/h"',
+        '"1 kg/h", "3 kg/h", "5 kg/h", "7 kg/h"',
+    ],
+)
+def test_fuel_without_a_line_is_refused(rates: str) -> None:
+    with pytest.raises(CrankworkError, match=r"must rise|write 4 of them"):
+        analysed(WILLANS.replace('"4 kg/h", "6.1 kg/h", "8 kg/h", "10.1 kg/h"', rates))
