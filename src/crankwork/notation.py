@@ -168,7 +168,6 @@ ARGUMENTS: dict[str, Argument] = {
     "M_drn": Argument("driven_load"),
     "eps_cl": Argument("closing_acceleration"),
     "t_cl": Argument("slip_time"),
-    "phi_cl": Argument("slip_angle"),
     "J_f": Argument("flywheel_inertia"),
     "i_g": Argument("gear_ratio"),
     "f_m": Argument("mains_frequency", unit="Hz"),

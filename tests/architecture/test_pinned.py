@@ -16,9 +16,9 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "7f7a64c0b817",
-    "formulas": "dea2d8fdd5c6",
-    "quantities": "4e35b47a7a14",
+    "symbols": "3be719c08af6",
+    "formulas": "bd43ba84fc48",
+    "quantities": "8af60f477aad",
     "defaults": "59fd6ef75afd",
 }
 
