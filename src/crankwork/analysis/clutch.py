@@ -45,6 +45,8 @@ def analyse_clutch(machine: Machine) -> Results:
     rate = worked.known.get("closing_acceleration")
     if rate is not None and rate.value <= 0:
         raise DiagramError("clutch.driven.torque", ErrorMessage("clutch_slips"))
+    if "slip_time" in worked.known and worked["slip_time"].value < 0:
+        raise DiagramError("clutch.driving.speed", ErrorMessage("clutch_slower"))
     trace = {key: value for key, value in {**worked.known, **worked.found}.items() if not value.is_absent}
     summary = {key: value.value for key, value in trace.items()}
     solved = PreparedMachine(machine, machine.method, machine.speed)
