@@ -464,8 +464,8 @@ class Machine:
     test: Mapping[str, tuple[float, ...]] | None = None
     # The torsional system of its shaft
     torsion: TorsionModel | None = None
-    # What is known of a friction clutch, by key: numbers in SI, and the word for its contact
-    clutch: Mapping[str, float | str] | None = None
+    # What is even all over the faces of a friction clutch, `uniform wear` or `uniform pressure`; its numbers are stated
+    clutch: str | None = None
 
     @property
     def lengths(self) -> SliderCrank | None:

@@ -6,6 +6,7 @@ import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.formula.calculation import Calculation
+from crankwork.formula.traced_value import absent, given
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import ErrorMessage
@@ -24,26 +25,28 @@ _OF_SIDE = {"torque": "load", "radius_of_gyration": "gyration_radius"}
 
 def analyse_clutch(machine: Machine) -> Results:
     """Return the results of a clutch (khurmi_gupta_2005, ch. 10); raise DiagramError if nothing follows."""
-    worked, numbers = Calculation(), dict(machine.clutch or {})
-    contact = str(numbers.pop("contact", "uniform wear"))
-    for path, value in numbers.items():
-        side, _, key = path.rpartition(".")
-        quantity = f"{side}_{_OF_SIDE.get(key, key)}" if side else _QUANTITIES[key]
-        worked.given(quantity, float(value), f"clutch.{path}")
+    worked = Calculation()
+    for path, number in machine.stated.items():
+        side, _, key = path.removeprefix("clutch.").rpartition(".")
+        if path.startswith("clutch."):
+            quantity = f"{side}_{_OF_SIDE.get(key, key)}" if side else _QUANTITIES[key]
+            worked.given(quantity, number.value, path)
+    if "clutch_friction" in worked.known and "cone_angle" not in worked.known:
+        worked.known.setdefault("friction_faces", given("friction_faces", 2.0, "clutch.faces"))
     for side in ("driving", "driven"):
         if f"{side}_mass" in worked.known:
             sizes = {"m_cl": worked[f"{side}_mass"], "k_cl": worked[f"{side}_gyration_radius"]}
             worked(inertia_of_side, f"{side}_inertia", **sizes)
-        if f"{side}_load" not in worked.known:
-            worked.absent(f"{side}_load")
-    if "driven_speed" not in worked.known:
-        worked.absent("driven_speed")
-    work_clutch(worked, contact, machine.method.pi)
+        worked.known.setdefault(f"{side}_load", absent(f"{side}_load"))
+    worked.known.setdefault("driven_speed", absent("driven_speed"))
+    work_clutch(worked, machine.clutch or "", machine.method.pi)
     if not worked.found.keys() - {"driving_inertia", "driven_inertia"}:
         raise DiagramError("clutch", ErrorMessage("clutch_nothing"))
     rate = worked.known.get("closing_acceleration")
     if rate is not None and rate.value <= 0:
         raise DiagramError("clutch.driven.torque", ErrorMessage("clutch_slips"))
+    if "slip_time" in worked.known and worked["slip_time"].value < 0:
+        raise DiagramError("clutch.driving.speed", ErrorMessage("clutch_slower"))
     trace = {key: value for key, value in {**worked.known, **worked.found}.items() if not value.is_absent}
     summary = {key: value.value for key, value in trace.items()}
     solved = PreparedMachine(machine, machine.method, machine.speed)

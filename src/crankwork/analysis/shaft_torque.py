@@ -108,14 +108,15 @@ def engine_torque(
     first = engine.of(1, "crank_torque").key
     cylinder, all_ = (curve_of(over, key) for key in (first, "total_torque"))
     w = engine.master.trace["speed"]
-    balance = _balance(engine, trace, over, all_)
+    largest = max(map(abs, cylinder.extremes()[::2]))
+    balance = _balance(engine, trace, over, all_, largest)
     mean = over.mean("total_torque", "mean_total_torque")
     if engine.machine.angular_acceleration and balance.torque.key == "static_torque":
         # the torque that accelerates the parts is not periodic
         mean = (
             -TracedValue(ProcedureValue(-balance.curve.mean, "mean", (balance.torque,)), "mean_driving_torque")
         ).named(mean.key)
-    if abs(mean.value) <= _CANCELLED * max(map(abs, cylinder.extremes()[::2])):
+    if abs(mean.value) <= _CANCELLED * largest:
         # without gas, weights and inertia leave a mean of rounding only
         mean = TracedValue(ProcedureValue(0.0, "mean", (trace["total_torque"],)), mean.key)
     mean = delivered_or_needed(mean)
@@ -134,7 +135,11 @@ def engine_torque(
 
 
 def _balance(
-    engine: MultiCylinderEngine, trace: Mapping[str, TracedValue], over: CycleInterpolant, total_torque: Curve
+    engine: MultiCylinderEngine,
+    trace: Mapping[str, TracedValue],
+    over: CycleInterpolant,
+    total_torque: Curve,
+    largest: float,
 ) -> Balance:
     """Return the torque of gas and weights on the crank, with the reduced inertia of all moving parts.
 
@@ -153,7 +158,7 @@ def _balance(
     torque = total_torque + J_1 * (w.value**2 / 2)
     if not eps.is_absent:
         torque = torque + (J + -drive.value) * eps.value
-    if max(map(abs, torque.extremes()[::2])) <= _CANCELLED * max(map(abs, total_torque.extremes()[::2])):
+    if max(map(abs, torque.extremes()[::2])) <= 10 * _CANCELLED * largest:
         # without gas and weights rounding is all that is left
         torque = torque * 0.0
     return Balance(static, torque, inertia, J, excess_work(torque))

@@ -168,14 +168,7 @@ def build_clutch(values: Values, reader: Reader) -> Machine | None:
     if "outer_diameter" in table and table.si("inner_diameter") >= table.si("outer_diameter"):
         reader.add_error("clutch.inner_diameter", ErrorMessage("clutch_inner"))
         return None
-    known: dict[str, float | str] = {"contact": table["contact"] or "uniform wear"}
-    for side, part in (("", table), ("driving.", table["driving"]), ("driven.", table["driven"])):
-        for key in part or ():
-            if isinstance(part[key], MeasuredValue | int | float):
-                known[f"{side}{key}"] = part.si(key) if isinstance(part[key], MeasuredValue) else part[key]
-    if "friction" in table and "cone_angle" not in table:
-        known["faces"] = table["faces"]
-    machine = machine_alone(values, method, 1.0, clutch=known)
+    machine = machine_alone(values, method, 1.0, clutch=table["contact"] or "uniform wear")
     try:
         analyse_clutch(machine)
     except CrankworkError as error:

@@ -648,6 +648,8 @@ def _holds(name: str, values: Values) -> bool:
     """Return whether the defaults of a table hold where it is left out."""
     if name == "cylinder":
         return "rod" in values
+    if values.table.name == "driver":
+        return False
     return name in ("method", "rod", "motor_selection") or (name == "timing" and values["kind"] == "wiebe")
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
+from operator import add
 
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.formula.calculation import Calculation
@@ -20,7 +22,7 @@ from crankwork.preparation import traced_inputs
 from crankwork.preparation.cylinder_gas import gas_of_cylinder, indicated_values
 from crankwork.preparation.prepared import PreparedCylinder, WorkingSpace
 from crankwork.units import UNITS
-from crankwork.working_cycle.test_bed import MEASURED, contradictions, missing, work_test
+from crankwork.working_cycle.test_bed import MEASURED, contradictions, missing, willans_loss, work_test
 
 # what an engine gives to the analysis of its test
 _OF_ENGINE = ("bore", "stroke", "indicated_power", "indicated_mean_pressure")
@@ -37,6 +39,7 @@ _SHOWN = {"force": "brake_load", "torque": "effective_torque", "power": "effecti
 # keys that say how the engine is built, not what was measured
 _BUILT, _MEASURED = ("test.cylinders", "test.strokes"), ("test.", "cylinder.displacement")
 _RATIO = "test.mechanical_efficiency"
+_LISTS = ("one_cut", "load_powers", "load_fuel_rates")
 
 
 def worked_alone(machine: Machine) -> dict[str, TracedValue]:
@@ -98,7 +101,7 @@ def _worked(machine: Machine, sizes: Mapping[str, TracedValue]) -> dict[str, Tra
     worked.known |= sizes
     for key, numbers in test.items():
         quantity = MEASURED.get(key, key)
-        if key != "one_cut":
+        if key not in _LISTS:
             path = f"cylinder.{key}" if key == "displacement" else f"test.{key}"
             if quantity in sizes and sizes[quantity].value != numbers[0]:
                 raise DiagramError(path, ErrorMessage("test_of_engine"))
@@ -116,6 +119,9 @@ def _worked(machine: Machine, sizes: Mapping[str, TracedValue]) -> dict[str, Tra
     if cut := test.get("one_cut"):
         worked.known |= _cut_powers(machine, worked, cut, pi)
     work_test(worked, pi)
+    if test.get("load_powers"):
+        _draw_willans_line(worked, test)
+        work_test(worked, pi)
     _check(machine, worked, pi)
     stated = {key: value for key, value in worked.known.items() if key in sizes or not value.is_absent}
     results = {key: value for key, value in worked.found.items() if key not in sizes}
@@ -152,6 +158,30 @@ def _cut_powers(machine: Machine, worked: Calculation, cut: tuple[float, ...], p
     for power in powers:
         worked.keep(power)
     return {"power_with_one_cut": total("power_with_one_cut", powers)}
+
+
+def _draw_willans_line(worked: Calculation, test: Mapping[str, tuple[float, ...]]) -> None:
+    """Add the straight line of fuel over brake power at one speed by least squares, and the losses that it gives."""
+    powers, rates = test["load_powers"], test["load_fuel_rates"]
+    if len(powers) != len(rates):
+        raise DiagramError("test.load_fuel_rates", ErrorMessage("entries", count=len(rates), wanted=len(powers)))
+    points = [
+        (given(f"effective_power.{i}", power, f"test.load_powers[{i}]"),
+         given(f"fuel_rate.{i}", rate, f"test.load_fuel_rates[{i}]"))
+        for i, (power, rate) in enumerate(zip(powers, rates, strict=True), start=1)
+    ]  # fmt: skip
+    mean, mean_rate = (reduce(add, values) / len(points) for values in zip(*points, strict=True))
+    spread = reduce(add, ((power - mean) * power for power, _ in points))
+    slope = reduce(add, ((power - mean) * rate for power, rate in points)) / spread if max(powers) > min(powers) else 0
+    if isinstance(slope, int) or slope.value <= 0 or mean_rate.value <= slope.value * mean.value:
+        raise DiagramError("test.load_fuel_rates", ErrorMessage("willans_line"))
+    lines = {"load_fuel_slope": slope, "idle_fuel_rate": mean_rate - slope * mean}
+    for key, known in lines.items():
+        fitted = ProcedureValue(known.value, "fit", [value for point in points for value in point], argument=known)
+        worked.keep(TracedValue(fitted, key))
+    loss = worked(willans_loss)
+    if "indicated_power" not in worked.known:
+        worked.keep(loss.named("mechanical_loss_power"))
 
 
 def _check(machine: Machine, worked: Calculation, pi: float) -> None:

@@ -512,7 +512,6 @@ _SHAFT = (
     Quantity("closing_acceleration", "rad/s2", "Rate at which the difference of the speeds of both shafts falls."),
     Quantity("slip_time", "s", "Time for which a clutch slips."),
     Quantity("engaged_speed", "rpm", "Speed of both shafts when a clutch slips no more."),
-    Quantity("slip_angle", "rad", "Angle by which the shafts of a clutch turn against each other while it slips."),
     Quantity("slip_heat", "J", "Work of friction while a clutch slips."),
     Quantity("flywheel_inertia", "kg*m2", "Moment of inertia of the flywheel about its shaft."),
     Quantity("half_fluctuation", "", "Half of the wanted fluctuation of the speed, in per cent."),

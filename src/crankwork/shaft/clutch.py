@@ -110,16 +110,10 @@ def engaged_speed(w_drn: Value, M_cl: Value, M_drn: Value, J_drn: Value, t_cl: V
     return w_drn + (M_cl - M_drn) / J_drn * t_cl
 
 
-@formula("slip_angle", _TEXT)
-def slip_angle(w_drg: Value, w_drn: Value, t_cl: Value) -> Value:
-    """Angle by which the shafts slip, with a slip that falls evenly."""
-    return (w_drg - w_drn) * t_cl / 2
-
-
 @formula("slip_heat", _TEXT)
-def heat_of_slip(M_cl: Value, phi_cl: Value) -> Value:
-    """Work of friction in an engagement."""
-    return M_cl * phi_cl
+def heat_of_slip(M_cl: Value, w_drg: Value, w_drn: Value, t_cl: Value) -> Value:
+    """Work of friction in an engagement, with a slip that falls evenly."""
+    return M_cl * (w_drg - w_drn) * t_cl / 2
 
 
 @formula("engaged_speed", _TEXT)
@@ -138,21 +132,20 @@ _FACES: dict[str, tuple[Callable[..., Any], ...]] = {
     "uniform wear": (radius_of_wear, force_of_worn_face, pressure_of_worn_face),
     "uniform pressure": (radius_of_pressure, force_of_even_face, pressure_of_even_face),
 }
-_PLATES, _CONE = (torque_of_plates, force_of_plates), (torque_of_cone, force_of_cone)
-_TOGETHER = (slip_time, engaged_speed, slip_angle, heat_of_slip)
 
 
 def work_clutch(worked: Calculation, contact: str, pi: float) -> None:
     """Work all that follows from what is known of a clutch and of its shafts."""
     known = worked.known
-    rules = [*_FACES[contact], *(_CONE if "cone_angle" in known else _PLATES), power_of_clutch]
-    if "clutch_torque" in known or "clutch_force" in known or "clutch_pressure" in known:
-        rules += [closing_of_both if "driving_inertia" in known else closing_at_one_speed, *_TOGETHER]
+    friction = (torque_of_cone, force_of_cone) if "cone_angle" in known else (torque_of_plates, force_of_plates)
+    rules = [*_FACES[contact], *friction, power_of_clutch]
+    if not known.keys().isdisjoint(("clutch_torque", "clutch_force", "clutch_pressure")):
+        closing = closing_of_both if "driving_inertia" in known else closing_at_one_speed
+        rules += [closing, slip_time, engaged_speed, heat_of_slip]
     elif known["driving_load"].is_absent and known["driven_load"].is_absent:
         rules += [speed_of_momentum, heat_of_momentum]
-    for _ in rules:
-        for rule in rules:
-            entry = FORMULAS[rule.__name__]
-            taken = [ARGUMENTS[name].quantity for name in entry.arguments if name != "pi"]
-            if entry.quantity not in known and known.keys() >= {*taken}:
-                worked(rule, **({"pi": pi} if "pi" in entry.arguments else {}))
+    for rule in rules * 2:
+        entry = FORMULAS[rule.__name__]
+        taken = {ARGUMENTS[name].quantity for name in entry.arguments if name != "pi"}
+        if entry.quantity not in known and known.keys() >= taken:
+            worked(rule, **({"pi": pi} if "pi" in entry.arguments else {}))

@@ -139,6 +139,18 @@ def mechanical_loss_power(N_ind: Value, N_e: Value) -> Value:
     return N_ind - N_e
 
 
+@formula("indicated_power", _AIR)
+def indicated_of_losses(N_e: Value, N_loss: Value) -> Value:
+    """Indicated power of a brake power and of the power that the engine itself takes."""
+    return N_e + N_loss
+
+
+@formula("willans_loss_power", _AIR)
+def willans_loss(G_idle: Value, g_load: Value) -> Value:
+    """Power of losses, at which the straight line of fuel over brake power would need no fuel."""
+    return G_idle / g_load
+
+
 @formula("fuel_rate", _TEXT)
 def fuel_of_volume(V_fuel: Value, rho_fuel: Value) -> Value:
     """Fuel by its volume flow."""
@@ -194,6 +206,7 @@ _RULES = (
     card_mean_pressure, double_acting_power, power_of_mean_pressure, chen_flynn_loss,
     engine_size.effective_mean_pressure, (power_of_mean_pressure, "effective"), indicated_of_brake, brake_of_indicated,
     mean_pressure_of_power, (mean_pressure_of_power, "effective"), efficiency_of_powers, mechanical_loss_power,
+    indicated_of_losses,
     torque_of_power, fuel_of_volume, engine_size.fuel_rate, consumption_of_power, (consumption_of_power, "indicated"),
     engine_size.heat_supplied, (efficiency_of_powers, "effective"), (efficiency_of_powers, "indicated"),
     otto_efficiency, relative_efficiency, charge_density, orifice_flow, measured_volumetric_efficiency,

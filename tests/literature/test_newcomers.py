@@ -1,0 +1,189 @@
+"""Problems as textbooks set them, entered as a newcomer would; each against a method that crankwork does not use.
+
+The stepped shaft of two flywheels is example 24.14 of R. S. Khurmi, J. K. Gupta: Theory of Machines, S. Chand, New
+Delhi 2005, which prints 3.37 Hz and a node 0.855 m from the first flywheel. All others are worked here.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.errors import CrankworkError
+from each import for_each
+from machine_texts import analysed
+
+pytestmark = pytest.mark.elsewhere
+
+RPM = math.pi / 30
+
+CELL = """
+format = 2
+fixed_points = { O = ["0 mm", "0 mm"], Q = ["50 mm", "0 mm"] }
+crank = { pivot = "Q", pin = "A", radius = "50 mm", speed = "10 rpm" }
+positions = { C = ["170 mm", "96 mm"], D = ["170 mm", "-96 mm"], P = ["240 mm", "0 mm"] }
+[links]
+oc = { joins = ["O", "C"], length = "200 mm" }
+od = { joins = ["O", "D"], length = "200 mm" }
+ac = { joins = ["A", "C"], length = "120 mm" }
+ad = { joins = ["A", "D"], length = "120 mm" }
+cp = { joins = ["C", "P"], length = "120 mm" }
+dp = { joins = ["D", "P"], length = "120 mm" }
+"""
+
+
+def test_peaucelliers_cell_runs_straight_between_two_dead_positions() -> None:
+    """Both rhombus dyads die together, where the distance of O and A is 200 less 120 mm, at 2 arccos 0.8."""
+    results = analysed(CELL)
+    reach = math.degrees(2 * math.acos(0.8))
+    assert math.degrees(results["crank_range_start"]) == pytest.approx(-reach, abs=1e-6)
+    assert math.degrees(results["crank_range_end"]) == pytest.approx(reach, abs=1e-6)
+    assert results["point_x.P"] == pytest.approx((0.2**2 - 0.12**2) / 0.1, rel=1e-11)
+    # and a value is told at angles before zero too
+    height = (0.2**2 - 0.12**2) / 0.1 * math.tan(math.radians(-15))
+    assert results.value("point_y.P", at=-30) == pytest.approx(height, rel=1e-11)
+
+
+def test_a_stepped_shaft_of_two_flywheels_as_printed() -> None:
+    results = analysed("""
+[torsion]
+modulus = "80 GPa"
+[torsion.discs]
+A = { mass = "900 kg", radius_of_gyration = "0.85 m" }
+B = { mass = "700 kg", radius_of_gyration = "0.55 m" }
+[torsion.shafts.steel]
+between = ["A", "B"]
+parts = [
+    { length = "0.6 m", diameter = "95 mm" },
+    { length = "0.5 m", diameter = "60 mm" },
+    { length = "0.4 m", diameter = "50 mm" },
+]
+""")
+    assert results["natural_frequency.1"] / (2 * math.pi) == pytest.approx(3.37, abs=0.005)
+    (node,) = (value for key, value in results.summary.items() if key.startswith("node_distance"))
+    assert node == pytest.approx(0.855, abs=0.0005)
+
+
+@for_each("start", ['"0 deg"', '"0 s"', '"1.5 s"'])
+def test_a_riveting_machine_slows_down(start: str) -> None:
+    """10 kJ in one second of every 10/3 s, with 3 kW that refill: what is missing comes from 54 kg m2."""
+    results = analysed(f"""
+format = 2
+crank.largest_speed = "300 rpm"
+load.period = "3.33333333333333 s"
+load.strokes = [{{ work = "10 kJ", from = {start}, over = "1 s" }}]
+flywheel = {{ mass = "150 kg", radius_of_gyration = "0.6 m" }}
+""")
+    least = math.sqrt((300 * RPM) ** 2 - 2 * 7000 / 54)
+    assert results["crank_speed_min"] == pytest.approx(least, rel=1e-9)
+    assert results["shaft_power"] == pytest.approx(3000, rel=1e-9)
+
+
+def test_an_offset_needs_no_bore() -> None:
+    results = analysed("""
+format = 2
+crank = { radius = "50 mm", speed = "120 rpm" }
+rod.length = "150 mm"
+cylinder.offset = "25 mm"
+""")
+    outer, inner = (math.sqrt(reach**2 - 0.025**2) for reach in (0.2, 0.1))
+    assert results["stroke"] == pytest.approx(outer - inner, rel=1e-12)
+    slow = 180 + math.degrees(math.asin(0.025 / 0.1) - math.asin(0.025 / 0.2))
+    assert results["time_ratio.piston"] == pytest.approx(slow / (360 - slow), rel=1e-9)
+
+
+@for_each("layout", ['layout = "V"\ncylinders = 2\nbank_angle = "90 deg"', 'layout = "radial"\ncylinders = 5'])
+def test_an_engine_without_gas_has_no_excess_work(layout: str) -> None:
+    """Gas does none; what is left is rounding and no work."""
+    results = analysed(f"""
+crank = {{ radius = "75 mm", speed = "500 rpm" }}
+rod.length = "350 mm"
+piston.mass = "11.5 kg"
+[engine]
+{layout}
+""")
+    assert results["excess_work"] == 0
+
+
+def test_forces_of_a_v_twin_by_fourier() -> None:
+    """First and second order of the exact acceleration of both pistons, by the sums of samples."""
+    results = analysed("""
+crank = { radius = "75 mm", speed = "500 rpm" }
+rod.length = "350 mm"
+piston.mass = "11.5 kg"
+[engine]
+layout = "V"
+cylinders = 2
+bank_angle = "90 deg"
+""")
+    angles = np.linspace(0, 2 * math.pi, 4096, endpoint=False)
+    pin, rod = 0.075 * np.exp(1j * angles), 0.35
+    reach = pin.real + np.sqrt(rod**2 - pin.imag**2)
+    orders = 2 * np.fft.rfft(reach)[1:3].real / angles.size * np.array([1, 4]) * (500 * RPM) ** 2 * 11.5
+    assert results["free_force.reciprocating.1"] == pytest.approx(abs(orders[0]), rel=1e-9)
+    assert results["free_force.reciprocating.2"] == pytest.approx(abs(orders[1]) * math.sqrt(2), rel=1e-9)
+
+
+def test_a_follower_rises_by_a_cosine_and_comes_back_by_parabolas() -> None:
+    """A slider alone, with a mass and no pin: force is mass times acceleration."""
+    results = analysed("""
+format = 2
+[driver]
+slider = "follower"
+start = "0 mm"
+period = "0.24 s"
+law = [
+    { kind = "harmonic", to = "40 mm", over = 0.25 },
+    { kind = "dwell", over = 0.25 },
+    { kind = "parabolic", to = "0 mm", over = 0.25 },
+    { kind = "dwell", over = 0.25 },
+]
+[guides]
+line.angle = "90 deg"
+line.through = ["0 mm", "0 mm"]
+[sliders]
+follower = { guide = "line", mass = "2 kg" }
+""")
+    rise = 0.02 * (math.pi / 0.06) ** 2
+    assert results["driver_velocity_max"] == pytest.approx(0.02 * math.pi / 0.06, rel=1e-9)
+    assert results["driver_velocity_min"] == pytest.approx(-2 * 0.04 / 0.06, rel=1e-9)
+    assert results["driver_force_max"] == pytest.approx(2 * max(rise, 4 * 0.04 / 0.06**2), rel=1e-9)
+
+
+WILLANS = """
+format = 2
+crank = { stroke = "120 mm", speed = "1500 rpm" }
+cylinder.bore = "100 mm"
+[test]
+cylinders = 4
+load_powers = ["10 kW", "20 kW", "30 kW", "40 kW"]
+load_fuel_rates = ["4 kg/h", "6.1 kg/h", "8 kg/h", "10.1 kg/h"]
+effective_power = "40 kW"
+"""
+
+
+def test_losses_by_the_line_of_willans() -> None:
+    results = analysed(WILLANS)
+    slope, idle = np.polyfit([10, 20, 30, 40], [4, 6.1, 8, 10.1], 1)
+    assert results["load_fuel_slope"] * 3.6e9 == pytest.approx(1000 * slope, rel=1e-9)
+    assert results["idle_fuel_rate"] * 3600 == pytest.approx(idle, rel=1e-9)
+    assert results["mechanical_efficiency"] == pytest.approx(40 / (40 + idle / slope), rel=1e-9)
+
+
+def test_a_measured_indicated_power_is_not_overruled_by_the_line() -> None:
+    results = analysed(WILLANS + 'indicated_power = "52 kW"\n')
+    assert results["mechanical_loss_power"] == pytest.approx(12e3)
+    assert results["willans_loss_power"] == pytest.approx(9900.990099, rel=1e-9)
+
+
+@for_each(
+    "rates",
+    [
+        '"4 kg/h", "6 kg/h", "8 kg/h"',
+        '"10 kg/h", "8 kg/h", "6 kg/h", "4 kg/h"',
+        '"1 kg/h", "3 kg/h", "5 kg/h", "7 kg/h"',
+    ],
+)
+def test_fuel_without_a_line_is_refused(rates: str) -> None:
+    with pytest.raises(CrankworkError, match=r"must rise|write 4 of them"):
+        analysed(WILLANS.replace('"4 kg/h", "6.1 kg/h", "8 kg/h", "10.1 kg/h"', rates))
