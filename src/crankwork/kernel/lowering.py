@@ -63,6 +63,8 @@ _BEYOND, _MIN_BEYOND = 0.5, 0.01
 _STEPS, _CONVERGED = 6, 1e-7
 # Newton steps to forces with friction, and the largest last step relative to their size
 _FORCE_STEPS, _SETTLED = 5, 1e-8
+# share of the largest force that counts as force
+_SMALL = 1e-6
 
 # procedures that look at a whole column
 _REDUCTIONS = (
@@ -636,7 +638,9 @@ class Lowering:
             values = [value - step for value, step in zip(values, last, strict=True)]
         self._roots[where] = values
         open_yet, size = (functools.reduce(operator.add, (x * x for x in of)) for of in (last, values))
-        settled = self.graph.apply("choose", size * _SETTLED**2 - open_yet, determinant, -1.0)
+        # where all forces vanish rounding is left of them
+        least = (_SMALL * float(np.nanmax(np.abs(root.solve(self.angles_at(self._sample_angles)))))) ** 2
+        settled = self.graph.apply("choose", (size + least) * _SETTLED**2 - open_yet, determinant, -1.0)
         self._guards.append(settled if fixed is not None else self.graph.reduction("least", settled))
         for column, places in root.sides if self._is_exact and fixed is None else ():
             ends = (*map(self._end, places), LawEnd(math.inf, math.inf, math.inf))
