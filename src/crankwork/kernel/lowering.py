@@ -181,25 +181,28 @@ class DesignTraces:
         return self._matched[id(node)]
 
     def linear_dependence(self, node: Input, graph: KernelGraph) -> KernelValue:
-        """Return an input as a linear function of the one field that changes it."""
+        """Return an input as a linear function of the field that changes it, or of several.
+
+        These take a design in which all fields differ, so that products are found.
+        """
         values = np.array([counterpart.value for counterpart in self.counterparts(node)], dtype=float)
         size = float(np.max(np.abs(values)))
         pairs = np.abs(values[1 : 1 + 2 * self.fields.shape[1]].reshape(-1, 2) - values[0]).max(axis=1)
         moved = np.flatnonzero(pairs > _TOLERANCE * size).tolist()
         if not moved and np.ptp(values) <= _TOLERANCE * size:
             return graph.constant(values[0])
-        if len(moved) != 1:
+        if len(moved) != 1 and (not moved or len(values) <= 1 + 2 * self.fields.shape[1]):
             raise NotCompiledError("several_fields", node.path)
-        x = self.fields[:, moved[0]]
-        low, high = 1 + 2 * moved[0], 2 + 2 * moved[0]
-        slope = (values[high] - values[low]) / (x[high] - x[low])
-        offset = values[0] - slope * x[0]
-        if np.max(np.abs(slope * x + offset - values)) > _TOLERANCE * size:
+        x, low, high = self.fields[:, moved], 1 + 2 * np.array(moved), 2 + 2 * np.array(moved)
+        slopes = (values[high] - values[low]) / np.diag(x[high] - x[low])
+        offset = values[0] - x[0] @ slopes
+        if np.max(np.abs(x @ slopes + offset - values)) > _TOLERANCE * size:
             raise NotCompiledError("curved_field", node.path)
         if abs(offset) <= _TOLERANCE * size:
             # exact to the last digit, if the field only has another unit
-            slope, offset = values[0] / x[0] if x[0] else slope, 0.0
-        return graph.input(moved[0]) * float(slope) + float(offset)
+            slopes, offset = values[:1] / x[0] if len(moved) == 1 and x[0, 0] else slopes, 0.0
+        terms = (graph.input(index) * slope for index, slope in zip(moved, slopes.tolist(), strict=True))
+        return sum(terms, graph.constant(float(offset)))
 
 
 def _solved(node: Node) -> Sequence[TracedValue]:
