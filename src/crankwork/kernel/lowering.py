@@ -640,7 +640,7 @@ class Lowering:
             *last, determinant = replaced([*steps, margin], dict(zip(indices, values, strict=True)))
             values = [value - step for value, step in zip(values, last, strict=True)]
         self._roots[where] = values
-        open_yet, size = (functools.reduce(operator.add, (x * x for x in of)) for of in (last, values))
+        open_yet, size = (functools.reduce(operator.add, (x * x for x in row)) for row in (last, values))
         # where all forces vanish rounding is left of them
         least = (_SMALL * float(np.nanmax(np.abs(root.solve(self.angles_at(self._sample_angles)))))) ** 2
         settled = self.graph.apply("choose", (size + least) * _SETTLED**2 - open_yet, determinant, -1.0)
