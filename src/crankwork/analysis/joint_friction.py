@@ -484,7 +484,7 @@ def _sides(
                 ends = corners.get(f"{place.joint.name}.{sign}", ())
                 # it may jump to the other side where friction changes its direction
                 close = ([jump for jump in jumps if abs(jump.value - end) < _CLOSE] for end in ends)
-                yield column, tuple((*at, reached(column, end))[0] for at, end in zip(close, ends, strict=True))
+                yield column, tuple((*near, reached(column, end))[0] for near, end in zip(close, ends, strict=True))
 
 
 def _sense(steps: StepFunction, velocity: TracedValue, name: str) -> TracedValue:

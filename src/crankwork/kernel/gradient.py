@@ -424,6 +424,9 @@ class ReductionAdjoint:
                 slopes = reduction.operands[2:] or (None, None)
                 both = zip((1.0, -1.0), self._block.range(reduction), slopes, strict=True)
                 return [term for values in both for term in self._work(reduction, *values)]
+            case "least":
+                # only guards look at it
+                return []
         return [self._extreme(reduction)]
 
     def _integral(self, column: KernelValue, weights: Array, at_edges: Array) -> ColumnWeights:

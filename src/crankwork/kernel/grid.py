@@ -140,7 +140,7 @@ class Edges(NamedTuple):
         return self._replace(followed_end=followed, stated=np.array([angles[0] for _, angles in ends]))
 
     def divided(self, coarse: NDArray[np.bool_], count: int) -> Edges:
-        """Return edges with each coarse panel and its neighbours, where designs between are coarse, divided into equal ones."""
+        """Return edges with coarse panels divided, and their neighbours, in which designs between may be coarse."""
         coarse = coarse | np.append(coarse[1:], False) | np.append(False, coarse[:-1])
         width = np.append(self.share[1:], 0.0)
         width = np.where(width > 0, width, 1.0) - self.share

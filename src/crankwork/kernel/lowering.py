@@ -63,6 +63,8 @@ _BEYOND, _MIN_BEYOND = 0.5, 0.01
 _STEPS, _CONVERGED = 6, 1e-7
 # Newton steps to forces with friction, and the largest last step relative to their size
 _FORCE_STEPS, _SETTLED = 5, 1e-8
+# share of the largest force that counts as force
+_SMALL = 1e-6
 
 # procedures that look at a whole column
 _REDUCTIONS = (
@@ -179,25 +181,28 @@ class DesignTraces:
         return self._matched[id(node)]
 
     def linear_dependence(self, node: Input, graph: KernelGraph) -> KernelValue:
-        """Return an input as a linear function of the one field that changes it."""
+        """Return an input as a linear function of the field that changes it, or of several.
+
+        These take a design in which all fields differ, so that products are found.
+        """
         values = np.array([counterpart.value for counterpart in self.counterparts(node)], dtype=float)
         size = float(np.max(np.abs(values)))
         pairs = np.abs(values[1 : 1 + 2 * self.fields.shape[1]].reshape(-1, 2) - values[0]).max(axis=1)
         moved = np.flatnonzero(pairs > _TOLERANCE * size).tolist()
         if not moved and np.ptp(values) <= _TOLERANCE * size:
             return graph.constant(values[0])
-        if len(moved) != 1:
+        if len(moved) != 1 and (not moved or len(values) <= 1 + 2 * self.fields.shape[1]):
             raise NotCompiledError("several_fields", node.path)
-        x = self.fields[:, moved[0]]
-        low, high = 1 + 2 * moved[0], 2 + 2 * moved[0]
-        slope = (values[high] - values[low]) / (x[high] - x[low])
-        offset = values[0] - slope * x[0]
-        if np.max(np.abs(slope * x + offset - values)) > _TOLERANCE * size:
+        x, low, high = self.fields[:, moved], 1 + 2 * np.array(moved), 2 + 2 * np.array(moved)
+        slopes = (values[high] - values[low]) / np.diag(x[high] - x[low])
+        offset = values[0] - x[0] @ slopes
+        if np.max(np.abs(x @ slopes + offset - values)) > _TOLERANCE * size:
             raise NotCompiledError("curved_field", node.path)
         if abs(offset) <= _TOLERANCE * size:
             # exact to the last digit, if the field only has another unit
-            slope, offset = values[0] / x[0] if x[0] else slope, 0.0
-        return graph.input(moved[0]) * float(slope) + float(offset)
+            slopes, offset = values[:1] / x[0] if len(moved) == 1 and x[0, 0] else slopes, 0.0
+        terms = (graph.input(index) * slope for index, slope in zip(moved, slopes.tolist(), strict=True))
+        return sum(terms, graph.constant(float(offset)))
 
 
 def _solved(node: Node) -> Sequence[TracedValue]:
@@ -635,8 +640,10 @@ class Lowering:
             *last, determinant = replaced([*steps, margin], dict(zip(indices, values, strict=True)))
             values = [value - step for value, step in zip(values, last, strict=True)]
         self._roots[where] = values
-        open_yet, size = (functools.reduce(operator.add, (x * x for x in of)) for of in (last, values))
-        settled = self.graph.apply("choose", size * _SETTLED**2 - open_yet, determinant, -1.0)
+        open_yet, size = (functools.reduce(operator.add, (x * x for x in row)) for row in (last, values))
+        # where all forces vanish rounding is left of them
+        least = (_SMALL * float(np.nanmax(np.abs(root.solve(self.angles_at(self._sample_angles)))))) ** 2
+        settled = self.graph.apply("choose", (size + least) * _SETTLED**2 - open_yet, determinant, -1.0)
         self._guards.append(settled if fixed is not None else self.graph.reduction("least", settled))
         for column, places in root.sides if self._is_exact and fixed is None else ():
             ends = (*map(self._end, places), LawEnd(math.inf, math.inf, math.inf))

@@ -173,6 +173,9 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
         check_single(stated, key)
     neighbours.near = near = _Near(list(known), np.array(list(known.values())), math.radians(stated.machine.cycle))
     middle = near.middle
+    # an analysis with friction takes a second, and a few values are compiled sooner than analysed
+    if keys and "friction_power" in stated.trace:
+        neighbours.compile(np.arange(len(near.names)), samples)
     first, second = neighbours.alone(told)
     variances = first**2 + second**2 / 2
     deviations = np.sqrt(variances.sum(axis=0))
@@ -186,7 +189,7 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
     worst = _Worst(neighbours, first, second, ends)
     if is_odd.any():
         odd = np.flatnonzero(is_odd)
-        neighbours.compile(odd, samples)
+        neighbours.compile(np.setdiff1d(odd, neighbours.known), samples)
         more = neighbours.draws(samples - _TEST_DRAWS)
         draws, drawn = np.concatenate([draws, more]), np.concatenate([drawn, neighbours.values(more, odd, told)])
         reasons += neighbours.refused.values()
@@ -280,7 +283,7 @@ class _Neighbours:
             machines.compile(None, few, is_for_few=count < _MANY)
             return [] if machines.reason else [(indices, machines)]
 
-        left = [names]
+        left = [names] if names.size else []
         while left:
             subset = left.pop()
             compiled = machines_of(subset)
@@ -292,6 +295,11 @@ class _Neighbours:
                         left.append(other)
                         break
             self._compiled += compiled
+
+    @property
+    def known(self) -> list[int]:
+        """Indices of the values that are compiled."""
+        return [index for subset, _ in self._compiled for index in subset.tolist()]
 
     def _designs(self, draws: Array) -> Array:
         return np.asarray((self._middle + draws * self._sizes).T)
@@ -312,7 +320,7 @@ class _Neighbours:
         left = set(range(len(self.near.names))) if names is None else set(names.tolist())
         designs, self.refused = self._designs(draws), {}
         for subset, machines in self._compiled:
-            if left >= set(subset.tolist()):
+            if left & set(subset.tolist()):
                 values = machines.values(designs, workers=os.cpu_count() or 1)
                 table[:, subset] = values.values.T
                 self.refused |= {draw: reason_of(cause) for draw, cause in values.refused.items()}

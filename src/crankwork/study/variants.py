@@ -150,8 +150,18 @@ class MachineVariants:
             # limit positions move with the design
             raise NotCompiledError("partial", "crank_range")
         cycle = samples[0].machine.cycle
-        traces = [holding_all(sample, self.keys).trace for sample in samples]
-        return Kernel(traces, np.array(rows), self.keys, CrankGrid.from_degrees, cycle=cycle, steps=steps, **more)
+        while True:
+            traces = [holding_all(sample, self.keys).trace for sample in samples]
+            try:
+                return Kernel(
+                    traces, np.array(rows), self.keys, CrankGrid.from_degrees, cycle=cycle, steps=steps, **more
+                )
+            except NotCompiledError as error:
+                if error.reason != "several_fields" or len(rows) > 1 + 2 * len(self._spans):
+                    raise
+            # a design in which all fields differ tells sums of them from products
+            rows.append(np.array([rows[2 + 2 * index][index] for index in range(len(self._spans))]))
+            samples.append(self.results(rows[-1]))
 
     def _near(self, middle: Array, index: int, end: float) -> tuple[Array, Results]:
         """Return a design with another value of one field, as close to the end of its range as machines exist."""
