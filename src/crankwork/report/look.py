@@ -227,7 +227,7 @@ class Drawn:
     results: Results
     language: Language
     area: float | None  # Of the piston, by which forces are divided [m2]
-    around: tuple[Array, ...] = ()  # Corners of all plans of velocities, and of accelerations [m/s], [m/s2]
+    plans: tuple[list[tuple[float, float]], ...] = ()  # Sizes of plans of both kinds that stand there by turns
 
     @property
     def has_piston(self) -> bool:
