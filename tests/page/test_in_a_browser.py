@@ -354,15 +354,15 @@ def test_plans_are_those_of_the_angle_and_stand_still_in_their_place(opened) -> 
     assert (told, plan.get_attribute("viewBox")) == ([True] * 2 * len(results.grid.degrees), paper)
 
 
-SEEN = """svg => { const box = svg.viewBox.baseVal, room = svg.getScreenCTM(), ends = [];
-  for (const one of svg.querySelectorAll('[data-part]')) {
-    if (!one.dataset.part.startsWith('force.') || one.matches('.on')) {
-      const { top, bottom, left, right } = one.getBoundingClientRect();
-      if (bottom > top) ends.push([(top - room.f) / room.d, (bottom - room.f) / room.d, (left - room.e) / room.a, (right - room.e) / room.a]);
-    }
-  }
-  const [top, bottom, left, right] = [Math.min, Math.max, Math.min, Math.max].map((least, k) => least(...ends.map((one) => one[k])));
-  return [(bottom - top) / box.height, top >= box.y && bottom <= box.y + box.height && left >= box.x && right <= box.x + box.width];
+SEEN = """svg => {
+  const box = svg.viewBox.baseVal, room = svg.getScreenCTM();
+  const parts = [...svg.querySelectorAll('[data-part]')].filter((one) => !one.matches('[data-part^="force."]:not(.on)'));
+  const rooms = parts.map((one) => one.getBoundingClientRect()).filter((one) => one.bottom > one.top);
+  const down = rooms.flatMap((one) => [one.top, one.bottom]).map((y) => (y - room.f) / room.d);
+  const across = rooms.flatMap((one) => [one.left, one.right]).map((x) => (x - room.e) / room.a);
+  const [top, bottom, left, right] = [Math.min(...down), Math.max(...down), Math.min(...across), Math.max(...across)];
+  const isInside = top >= box.y && bottom <= box.y + box.height && left >= box.x && right <= box.x + box.width;
+  return [(bottom - top) / box.height, isInside];
 }"""
 
 
