@@ -356,7 +356,7 @@ def test_plans_are_those_of_the_angle_and_stand_still_in_their_place(opened) -> 
 
 SEEN = """svg => {
   const box = svg.viewBox.baseVal, room = svg.getScreenCTM();
-  const parts = [...svg.querySelectorAll('[data-part]')].filter((one) => !one.matches('[data-part^="force."]:not(.on)'));
+  const seen = '[data-part]:not([data-part^="force."]:not(.on))', parts = [...svg.querySelectorAll(seen)];
   const rooms = parts.map((one) => one.getBoundingClientRect()).filter((one) => one.bottom > one.top);
   const down = rooms.flatMap((one) => [one.top, one.bottom]).map((y) => (y - room.f) / room.d);
   const across = rooms.flatMap((one) => [one.left, one.right]).map((x) => (x - room.e) / room.a);
