@@ -265,11 +265,11 @@ class Drawn:
 
     def at(self, degrees: Array) -> Iterator[Drawn]:
         """Yield it at some crank angles. [deg]"""
-        every = np.union1d(self.reached.degrees, degrees)
-        columns = without_rounding(self.results.columns_at(every), self.results.solved.speed)
-        for row in np.searchsorted(every, degrees).tolist():
+        angles = np.union1d(self.reached.degrees, degrees)
+        columns = without_rounding(self.results.columns_at(angles), self.results.solved.speed)
+        for row in np.searchsorted(angles, degrees).tolist():
             moved = replace(self)
-            vars(moved)["reached"] = Reached(every, columns, row, self.reached.is_whole)
+            vars(moved)["reached"] = Reached(angles, columns, row, self.reached.is_whole)
             yield moved
 
     @cached_property

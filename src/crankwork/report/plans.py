@@ -56,7 +56,7 @@ _LOWEST, _UNDER = 40.0, 3
 # a linkage whose points have velocities or accelerations a billionth of this stands still
 _STILL = 1e-3
 # of the largest value of a plan, what is none beside it
-_NOTHING = 1e-5
+_ZERO = 1e-5
 # a plan smaller than this has a scale of its own [mm]
 _READ = 15.0
 _LOOKS: dict[Kind, tuple[float, Dashes]] = {
@@ -262,13 +262,13 @@ def node_name(letter: str) -> str:
 
 def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language) -> list[str]:
     """Return the magnitudes of the vectors and the turning of the links, of all of them where all vectors are given."""
-    rows, unit, least = [], unit_name(kind.unit, language), _NOTHING * _longest(plan)
+    rows, unit, least = [], unit_name(kind.unit, language), _ZERO * _longest(plan)
     for vector in vectors:
         mark = vector_mark(vector.kind, language) if kind.sign == "a" else ""
         name = math_symbol(f"{kind.sign}_{vector.name}", mark)
         rows.append(f"{name} = {_four_digits(vector.length if vector.length > least else 0.0, language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
-    least = _NOTHING * max(kind.size, *(abs(rate) for rate in plan.turning.values()))
+    least = _ZERO * max(kind.size, *(abs(rate) for rate in plan.turning.values()))
     for link, value in plan.turning.items():
         if abs(value) > least or len(vectors) == len(plan.vectors):
             name = math_symbol(f"{kind.turning}_{link}")
