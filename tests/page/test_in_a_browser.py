@@ -339,3 +339,45 @@ def test_an_extreme_is_followed_at_its_own_angle_and_time(opened) -> None:
     page = opened("excavator-boom")
     shown(page, "values").locator('[data-key="link_angle_max_time.boom"]').click()
     assert "(4\u00a0s)" in page.locator("#explanation").inner_text().replace("(4 s)", "(4\u00a0s)")
+
+
+def test_plans_are_those_of_the_angle_and_stand_still_in_their_place(opened) -> None:
+    page, results = opened("press-geometry"), results_of("press-geometry")
+    plan = page.locator("svg[data-figure=velocity_plan]")
+    paper, told = plan.get_attribute("viewBox"), []
+    for row, degrees in enumerate(results.grid.degrees):
+        speed = float(results["point_velocity.B"][row])
+        at_rest = speed < 1e-5 * float(results["point_velocity.A"][row])
+        told.append(f"φ = {degrees:g}°" in plan.text_content())
+        told.append(f"vB = {0 if at_rest else float(f'{speed:.4g}'):g} m/s" in plan.text_content())
+        page.keyboard.press("ArrowRight")
+    assert (told, plan.get_attribute("viewBox")) == ([True] * 2 * len(results.grid.degrees), paper)
+
+
+SEEN = """svg => {
+  const box = svg.viewBox.baseVal, room = svg.getScreenCTM();
+  const seen = '[data-part]:not([data-part^="force."]:not(.on))', parts = [...svg.querySelectorAll(seen)];
+  const rooms = parts.map((one) => one.getBoundingClientRect()).filter((one) => one.bottom > one.top);
+  const down = rooms.flatMap((one) => [one.top, one.bottom]).map((y) => (y - room.f) / room.d);
+  const across = rooms.flatMap((one) => [one.left, one.right]).map((x) => (x - room.e) / room.a);
+  const [top, bottom, left, right] = [Math.min(...down), Math.max(...down), Math.min(...across), Math.max(...across)];
+  const isInside = top >= box.y && bottom <= box.y + box.height && left >= box.x && right <= box.x + box.width;
+  return [(bottom - top) / box.height, isInside];
+}"""
+
+
+def test_a_machine_fills_its_drawing_and_forces_have_room_where_they_are_seen(opened) -> None:
+    page = opened("spark-engine")
+    machine, boxes = page.locator("svg[data-figure=machine]"), page.locator("[data-choice]").all()
+    share, inside = machine.evaluate(SEEN)
+    assert share > 0.65
+    assert inside
+    for box in boxes:
+        box.check()
+    for _ in range(6):
+        for _ in range(15):
+            page.keyboard.press("ArrowRight")
+        assert machine.evaluate(SEEN)[1]
+    for box in boxes:
+        box.uncheck()
+    assert machine.evaluate(SEEN)[0] == pytest.approx(share, abs=0.15)

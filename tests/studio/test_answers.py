@@ -457,3 +457,9 @@ def test_a_trial_that_nobody_waits_for_ends():
 
     with pytest.raises(StoppedError):
         Session("en").run_experiment({"text": template("slider-crank"), "over": {"crank.radius": "40..60 mm"}}, told)
+
+
+@pytest.mark.parametrize(("wide", "width"), [(390, 88), (1440, 140)])
+def test_figures_are_as_wide_as_the_window_has_room_for(wide, width):
+    found = Session("en").answer({"do": "show", "text": template("four-bar"), "figures": ["links"], "wide": wide})
+    assert re.findall(r'viewBox="0 0 (\d+)', found["figures"]["links"]) == [str(width)]

@@ -13,7 +13,9 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
+from crankwork.browser import script
 from crankwork.description.machine_file import template
+from crankwork.studio.server import styles
 
 
 def asked(started, path, method="GET", body=None, **headers):
@@ -194,3 +196,7 @@ def test_the_studio_ends_after_its_last_page_has_gone():
     rooms.pages = 1
     assert not rooms.is_idle
     assert not server.ServerState(server.StartupOptions(""), "en", keeps_running=True).is_idle
+
+
+def test_script_and_style_are_small() -> None:
+    assert len(script("studio").encode()) + len(styles().encode()) <= 165_000

@@ -262,14 +262,14 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
         foot += (_ROW + _KEY * len(rows) + 3.0) * has_room
     height = float(tall) + 2 * _MARGIN + foot
     placed = sketch.moved(np.array([width / 2, (height + foot) / 2]) - middle)
-    whole = ChartBox(0.0, 0.0, width, height)
+    covered = ChartBox(0.0, 0.0, width, height)
     if sketch.force_scale:
         if not has_room:
             shifts = [moving.shift for moving in placed.parts if moving.name.startswith("force.")]
             tips = np.vstack([[(0.0, 0.0), (width, height)], *shifts])
             low, high = tips.min(axis=0) - _AROUND, tips.max(axis=0) + _AROUND
             under = float(low[1]) - _ROW - _KEY * len(rows) - 3.0
-            whole = ChartBox(float(low[0]), under, float(high[0] - low[0]), float(high[1]) - under)
+            covered = ChartBox(float(low[0]), under, float(high[0] - low[0]), float(high[1]) - under)
         texts = _scale_bar(
             1 / sketch.force_scale, 0.3 * width, under + _MARGIN + _ROW - _FOOT, key_unit("piston_force"), language
         )
@@ -282,7 +282,7 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     return Animation(
         ground, (*placed.parts, *below), path.degrees, _passage(path, seconds), readouts,
         (width - _MARGIN, _MARGIN), round(frames * _STILL / (path.degrees[-1] or _TURN)) % frames if path.turns else 0,
-        path.turns, about, _views(placed, height, language), _choices(placed, language), whole,
+        path.turns, about, _views(placed, height, language), _choices(placed, language), covered,
     )  # fmt: skip
 
 

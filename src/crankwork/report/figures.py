@@ -74,7 +74,7 @@ from crankwork.report.look import (
     quantity_of,
 )
 from crankwork.report.motion import brix, centrodes, curved_paths, has_centrodes, kinematics, path_figure, tolle
-from crankwork.report.plans import acceleration_plan, corners_of, position_plans, velocity_plan
+from crankwork.report.plans import acceleration_plan, position_plans, size_of, velocity_plan
 from crankwork.report.tables import any_nonzero, shown_names
 from crankwork.report.torque import (
     accumulated_torque,
@@ -360,10 +360,10 @@ def _plan(order: int) -> Callable[[Drawn], Drawing]:
 
     def picture(machine: Drawn) -> Drawing:
         mechanism, (moved, first, second) = machine.results.machine.mechanism, _state(machine)
-        around = machine.around[order - 1] if machine.around else None
+        among = machine.plans[order - 1] if machine.plans else ()
         if order == 1:
-            return velocity_plan(mechanism, moved, 0, first, machine.style, around=around)
-        return acceleration_plan(mechanism, moved, 0, first, second, machine.style, around=around)
+            return velocity_plan(mechanism, moved, 0, first, machine.style, among=among)
+        return acceleration_plan(mechanism, moved, 0, first, second, machine.style, among=among)
 
     return picture
 
@@ -598,10 +598,10 @@ def drawings_at(
         mechanism, links = results.machine.mechanism, machine.style.links
         states = list(map(_state, machine.at(degrees)))
         plans = (
-            [velocities(mechanism, moved, 0, first, links) for moved, first, _ in states],
-            [accelerations(mechanism, moved, 0, first, second, links) for moved, first, second in states],
+            [size_of(velocities(mechanism, moved, 0, first, links)) for moved, first, _ in states],
+            [size_of(accelerations(mechanism, moved, 0, first, second, links)) for moved, first, second in states],
         )
-        each = list(replace(machine, around=tuple(map(corners_of, plans))).at(degrees))
+        each = list(replace(machine, plans=plans).at(degrees))
         return {
             name: [figure.picture(moved) if figure.needs(moved) else None for moved in each]
             for name, figure in known.items()

@@ -227,7 +227,7 @@ class Drawn:
     results: Results
     language: Language
     area: float | None  # Of the piston, by which forces are divided [m2]
-    around: tuple[Array, ...] = ()  # Corners of all plans of velocities, and of accelerations [m/s], [m/s2]
+    plans: tuple[list[tuple[float, float]], ...] = ()  # Sizes of plans of both kinds that stand there by turns
 
     @property
     def has_piston(self) -> bool:
@@ -265,11 +265,11 @@ class Drawn:
 
     def at(self, degrees: Array) -> Iterator[Drawn]:
         """Yield it at some crank angles. [deg]"""
-        every = np.union1d(self.reached.degrees, degrees)
-        columns = without_rounding(self.results.columns_at(every), self.results.solved.speed)
-        for row in np.searchsorted(every, degrees).tolist():
+        angles = np.union1d(self.reached.degrees, degrees)
+        columns = without_rounding(self.results.columns_at(angles), self.results.solved.speed)
+        for row in np.searchsorted(angles, degrees).tolist():
             moved = replace(self)
-            vars(moved)["reached"] = Reached(every, columns, row, self.reached.is_whole)
+            vars(moved)["reached"] = Reached(angles, columns, row, self.reached.is_whole)
             yield moved
 
     @cached_property

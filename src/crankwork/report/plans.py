@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -58,7 +58,7 @@ _LOWEST, _UNDER = 40.0, 3
 # a linkage whose points have velocities or accelerations a billionth of this stands still
 _STILL = 1e-3
 # of the largest value of a plan, what is none beside it
-_NOTHING = 1e-5
+_ZERO = 1e-5
 # a plan smaller than this has a scale of its own [mm]
 _READ = 15.0
 _LOOKS: dict[Kind, tuple[float, Dashes]] = {
@@ -107,15 +107,11 @@ def velocity_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
     style: Style = PLAIN,
     position: int | None = None,
     among: Sequence[Size] = (),
-    around: Array | None = None,
 ) -> Drawing:
-    """Return the velocity plan of a linkage at one crank angle; `position`: its number among others of these sizes.
-
-    `around`: corners of what all plans that stand at its place take up.
-    """
+    """Return the velocity plan of a linkage at one crank angle; `position`: its number among others of these sizes."""
     kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p", abs(speed))
     plan = velocities(mechanism, moving, index, speed, style.links)
-    return _figure(plan, kind, moving.degrees[index], style, position, among, around)
+    return _figure(plan, kind, moving.degrees[index], style, position, among)
 
 
 def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
@@ -127,7 +123,6 @@ def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is sh
     style: Style = PLAIN,
     position: int | None = None,
     among: Sequence[Size] = (),
-    around: Array | None = None,
 ) -> Drawing:
     """Return the acceleration plan of a linkage at one crank angle; `position`: its number among others as large."""
     plan = accelerations(mechanism, moving, index, speed, angular_acceleration, style.links)
@@ -135,19 +130,13 @@ def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is sh
     kind = _Kind(
         "acceleration_plan", "a", "m/s2", symbol("angular_acceleration", style.language), "rad/s2", pole, speed**2
     )
-    return _figure(plan, kind, moving.degrees[index], style, position, among, around)
+    return _figure(plan, kind, moving.degrees[index], style, position, among)
 
 
 def size_of(plan: VectorPolygon) -> Size:
     """Return width and height of a plan, in its unit."""
-    width, height = np.ptp(corners_of([plan]), axis=0)
+    width, height = np.ptp(_places(_seen(plan)), axis=0)
     return float(width), float(height)
-
-
-def corners_of(plans: Iterable[VectorPolygon]) -> Array:
-    """Return the least and the largest place of plans from one pole, shape (2, 2)."""
-    places = np.vstack([_places(_seen(plan)) for plan in plans])
-    return np.array([places.min(axis=0), places.max(axis=0)])
 
 
 def _longest(plan: VectorPolygon) -> float:
@@ -174,29 +163,29 @@ def _scale(size: Size, among: Sequence[Size], room: tuple[float, float]) -> floa
     return max(scales) if max(size) / max(scales) > _READ else scales[0]
 
 
-def _figure(  # noqa: PLR0913 - a plan, and what stands beside it
-    plan: VectorPolygon, kind: _Kind, degrees: float, style: Style,
-    position: int | None, among: Sequence[Size], around: Array | None,
-) -> Drawing:  # fmt: skip
-    """Draw a plan, and beside it the values of its vectors and the angular rates of the links."""
-    language, seen = style.language, _seen(plan)
-    corners = corners_of([plan]) if around is None else around
-    size = float(np.ptp(corners[:, 0])), float(np.ptp(corners[:, 1]))
+def _figure(
+    plan: VectorPolygon, kind: _Kind, degrees: float, style: Style, position: int | None, among: Sequence[Size]
+) -> Drawing:
+    """Draw a plan, and beside it the values of its vectors and the angular rates of the links.
+
+    Those that stand at one place by turns have no number: each has all rows, and room for the largest.
+    """
+    language, seen, size = style.language, _seen(plan), size_of(plan)
+    by_turns = position is None and bool(among)
+    if by_turns:
+        size, among = (max(width for width, _ in among), max(height for _, height in among)), ()
     # only beside one plan there is room for a list
     has_list = position is None and not is_narrow()
     side = current_layout().width - (_LIST_WIDTH if has_list else 0.0)
-    # of plans at one place each has every row
-    rows = [] if position is not None else [
-        *_rows(seen if around is None else plan.vectors, plan, kind, language, is_whole=around is not None),
-        *_link_names(style, plan),
-    ]  # fmt: skip
+    vectors = plan.vectors if by_turns else seen
+    rows = [] if position is not None else [*_rows(vectors, plan, kind, language), *_link_names(style, plan)]
     # long names stand beside the outermost ends, those of one end together
     ends: dict[tuple[float, ...], str] = {}
     for name, node in plan.nodes.items():
         place = tuple(np.round(node / max(_longest(plan), 1e-12), 3).tolist())
         ends[place] = f"{ends[place]}, {node_name(name)}" if place in ends else node_name(name)
     margin = max([_MARGIN, *(WIDER * text_width(plain(text), 8.0) + 12 for text in ends.values())])
-    margin = margin if around is None else side
+    margin = side if by_turns else margin
     listed = _ROW * len(rows) if has_list else 0.0
     high = max(scaled_height(_TALL), listed)
     wide = side - 2 * min(margin, side / 8)
@@ -208,7 +197,8 @@ def _figure(  # noqa: PLR0913 - a plan, and what stands beside it
     # in two columns where it stands below
     below = 0.0 if has_list else _ROW * -(-len(rows) // 2)
     paper = Canvas(current_layout().width, high + below)
-    middle = corners.mean(axis=0)
+    places = _places(seen)
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2
     left, bottom = middle[0] - side / 2 / unit, middle[1] - (high + 34) / 2 / unit
     x, y = (left, left + current_layout().width / unit), (bottom, bottom + high / unit)
     graph = Graph(paper, ChartBox(0.0, 0.0, current_layout().width, high), x, y, language, to_scale=False)
@@ -274,21 +264,19 @@ def node_name(letter: str) -> str:
     return letter[0].lower() + letter[1:] if len(letter) <= 3 else letter
 
 
-def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language, *, is_whole: bool) -> list[str]:
-    """Return the magnitudes of the vectors and the turning of the links; `is_whole`: of links that stand still too."""
-    rows, unit = [], unit_name(kind.unit, language)
-    least = _NOTHING * _longest(plan) * is_whole
+def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language) -> list[str]:
+    """Return the magnitudes of the vectors and the turning of the links, of all of them where all vectors are given."""
+    rows, unit, least = [], unit_name(kind.unit, language), _ZERO * _longest(plan)
     for vector in vectors:
         mark = vector_mark(vector.kind, language) if kind.sign == "a" else ""
         name = math_symbol(f"{kind.sign}_{vector.name}", mark)
-        rows.append(f"{name} = {_four_digits(vector.length * (vector.length > least), language)} {unit}")
+        rows.append(f"{name} = {_four_digits(vector.length if vector.length > least else 0.0, language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
+    least = _ZERO * max(kind.size, *(abs(rate) for rate in plan.turning.values()))
     for link, value in plan.turning.items():
-        most = max(kind.size, *(abs(rate) for rate in plan.turning.values()))
-        if is_whole or abs(value) > 1e-9 * most:
+        if abs(value) > least or len(vectors) == len(plan.vectors):
             name = math_symbol(f"{kind.turning}_{link}")
-            shown = value if abs(value) > _NOTHING * most or not is_whole else 0.0
-            rows.append(f"{name} = {_four_digits(shown, language)} {unit}")
+            rows.append(f"{name} = {_four_digits(value if abs(value) > least else 0.0, language)} {unit}")
     return rows
 
 

@@ -73,7 +73,7 @@ class Animation(NamedTuple):
     about: str = ""  # Alternative text
     views: tuple[tuple[str, ChartBox], ...] = ()  # Details: name, and box on the paper
     choices: Mapping[str, str] = {}  # Optional parts: prefix of their names, and text
-    whole: ChartBox | None = None  # What it covers with these, where the paper is smaller [mm]
+    covered: ChartBox | None = None  # What it covers with these, where the paper is smaller [mm]
 
     @property
     def frames(self) -> int:

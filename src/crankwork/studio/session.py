@@ -75,7 +75,7 @@ _SAME = 1e-7
 
 
 # windows in which figures stand alone [px], and figures that stand beside other things
-_NARROW, _BESIDE = 640, ChartLayout(140 / MM)
+_NARROW, _COLUMN = 640, ChartLayout(140 / MM)
 
 
 class Session:
@@ -103,7 +103,7 @@ class Session:
             "ahead": self._ahead, "reach": self._reach, "missing": self._missing, "swap": self._swap,
         }  # fmt: skip
         try:
-            with use_layout(SCREEN if request.get("wide", _NARROW) < _NARROW else _BESIDE):
+            with use_layout(SCREEN if request.get("wide", _NARROW) < _NARROW else _COLUMN):
                 return asks[request["do"]](request)
         except CrankworkError as error:
             return {"refusals": self._error_lines(error)}
