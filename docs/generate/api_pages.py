@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import inspect
+import re
+from pathlib import Path
 
 import crankwork
 
@@ -31,6 +33,20 @@ _DATA = {
 }
 
 
+def examples() -> dict[str, str]:
+    """Return the examples of names whose docstrings have none, by name."""
+    written = (Path(__file__).parent / "name_examples.md").read_text(encoding="utf-8")
+    parts = re.findall(r"^## (.+?)\n\n(.+?)(?=^## |\Z)", written, re.MULTILINE | re.DOTALL)
+    return {name: shown.strip() for names, shown in parts for name in names.split()}
+
+
+def without_example() -> list[str]:
+    """Return the public names that have no example."""
+    shown = examples()
+    return [name for name in crankwork.__all__
+            if name not in shown and ">>>" not in (inspect.getdoc(getattr(crankwork, name)) or "")]  # fmt: skip
+
+
 def _entry(name: str) -> list[str]:
     value = getattr(crankwork, name)
     if inspect.isclass(value):
@@ -41,12 +57,16 @@ def _entry(name: str) -> list[str]:
     return [f".. py:data:: crankwork.{name}", "", f"   {_DATA[name]}"]
 
 
+def _shown(name: str) -> list[str]:
+    return ["", *(f"   {line}".rstrip() for line in examples()[name].splitlines())] if name in examples() else []
+
+
 def page() -> str:
     """Return the page."""
     said = "What `import crankwork` gives. Values are in SI units unless it is said. The examples are run as tests."
     parts = [f"# Names of the package\n\n{said}\n"]
     for title, names in SUBJECTS.items():
-        entries = ["\n".join(_entry(name)) for name in names]
+        entries = ["\n".join([*_entry(name), *_shown(name)]) for name in names]
         parts.append(f"## {title}\n\n```{{eval-rst}}\n" + "\n\n".join(entries) + "\n```\n")
     return "\n".join(parts)
 

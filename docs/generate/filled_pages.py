@@ -3,8 +3,8 @@
 A fence marked `run` holds commands of a shell; below each stands what it printed. `run 20` keeps the first 20 lines,
 `run with WORDS` those with these words. `hidden` runs and shows nothing. `file NAME` writes a file and shows it; with
 `of PATH` it is that file of the repository, or the first file that a page shows. `show NAME` shows a file that a
-command wrote: from the line that stands in the fence, and as many lines as `show NAME 20` says. `python` runs a program,
-whose output follows. A picture `made/NAME` is a file that a command wrote.
+command wrote: from the line that stands in the fence, and as many lines as `show NAME 20` says. `python` runs a
+program, whose output follows. A picture `made/NAME` is a file that a command wrote.
 """
 
 from __future__ import annotations

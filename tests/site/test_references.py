@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import re
 import tomllib
 
@@ -16,6 +17,8 @@ from crankwork.quantities import SUBJECTS
 from each import for_each
 
 IDENTITIES = re.compile(r'class="entry" id="([^"]+)"')
+# may only become fewer
+NAMES_WITHOUT_EXAMPLE = 30
 SAID = re.compile(r'<p class="entry-said">(.*?)</p>')
 
 
@@ -80,6 +83,21 @@ def test_every_command_and_option_has_an_entry(language):
 
 def test_every_public_name_has_an_entry_with_a_sentence():
     assert api_pages.left_out() == []
+
+
+def test_examples_of_names_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    failed = []
+    for name, shown in api_pages.examples().items():
+        case = doctest.DocTestParser().get_doctest(shown, {}, name, None, None)
+        if not case.examples or doctest.DocTestRunner(verbose=False).run(case).failed:
+            failed.append(name)
+        (tmp_path / "torque.svg").unlink(missing_ok=True)
+    assert failed == []
+
+
+def test_no_more_names_are_without_an_example():
+    assert len(api_pages.without_example()) <= NAMES_WITHOUT_EXAMPLE
 
 
 def test_references_say_the_same_in_every_language():
