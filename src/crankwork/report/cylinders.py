@@ -700,7 +700,7 @@ def balance_polygons(machine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     return paper, graphs
 
 
-def _along_shaft(  # noqa: PLR0913 - where, and what of
+def _along_shaft(
     machine: Drawn, paper: Canvas, box: ChartBox, names: tuple[str, ...], along: Array, moments: Array
 ) -> Graph:
     """Draw a shaft from the side: a line in each plane, as high as the moment of its mass goes up."""
