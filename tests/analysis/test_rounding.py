@@ -109,4 +109,5 @@ def test_an_engine_without_gas_has_no_excess_work_but_that_of_its_inertia():
     results = crankwork.analyse(engine.machine(["rod.small_end_share=0.27", "engine.firing_order=[1, 3, 4, 2]"]))
     assert 0 < results.summary["excess_work"] < 1e-9
     printed = summary_without_rounding(results)
-    assert printed["excess_work"] == 0 < 100 < printed["excess_work.mertsalov"]
+    assert printed["excess_work"] == 0
+    assert printed["excess_work.mertsalov"] > 100

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from crankwork.formula.calculation_lines import ValueLine
 from crankwork.note.document import Equation, Figure, Heading, PageBreak, Paragraph, Table
-from crankwork.note.numbering import PAGE, flow
+from crankwork.note.numbering import PAGE, flow, leads
 from crankwork.show.scene import Drawing
 
 FIGURE = Figure(Drawing("t", "en", 160.0, 100.0, ()), "Figure", "a figure")
@@ -47,3 +47,17 @@ def test_nothing_is_lost():
         placed = [(TEXT, 600.0), (FIGURE, 500.0), (FIGURE, 700.0), (last, 40.0), (FIGURE, 720.0)]
         assert sorted(_order(*placed)) == list(range(5))
     assert PAGE > 700
+
+
+def test_a_figure_that_almost_fits_is_made_smaller_and_one_that_does_not_is_left():
+    for height, share in ((300.0, 0.84), (500.0, None)):
+        smaller: dict[int, float] = {}
+        placed = (TEXT, 450.0), (FIGURE, height), (HEADING, 46.0), (TEXT, 50.0)
+        order = list(flow([one for one, _ in placed], [high for _, high in placed], 0.03, smaller))
+        assert order == [0, 1, 2, 3]
+        assert {place: round(kept, 2) for place, kept in smaller.items()} == ({1: share} if share else {})
+
+
+def test_a_line_that_leads_to_an_equation_goes_with_it_to_the_next_page():
+    assert leads(Paragraph(("Worked at 30°:",)))
+    assert not leads(Paragraph(("Worked at 30°.",)))

@@ -21,7 +21,10 @@ def test_polygons_have_the_moments_and_couples_of_the_table(results, language) -
     columns = results.listings["planes"].columns
     turned = np.exp(1j * columns["plane_angle"])
     moments, couples = (columns[key] * turned for key in ("plane_moment", "plane_couple"))
-    star, polygon, closed = ((np.array(x) + 1j * np.array(y)) for one in curves for x, y in one.values())
+    side, star, polygon, closed = ((np.array(x) + 1j * np.array(y)) for one in curves for x, y in one.values())
+    # from the side the shaft has its planes in millimetres, and of the moments what goes up
+    positions = [results.trace[f"plane_position.{name}"].value for name in results.listings["planes"].names]
+    assert side == pytest.approx(1e3 * np.array(positions) + 1j * moments.imag, abs=1e-9)
     assert star == pytest.approx(moments, abs=1e-9)
     assert polygon == pytest.approx(np.cumsum(moments), abs=1e-9)
     # couples count from the plane of the first, which has none

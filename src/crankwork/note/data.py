@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 from crankwork.analysis.input_loads import ChamberInput, LoadInput, stated_chambers, stated_charges, stated_loads
-from crankwork.cylinders.planes import PlaneMass
 from crankwork.formula.traced_value import Input, Node, in_order
 from crankwork.locale import translate
 from crankwork.machine import Bearings, Engine, TransferTable
@@ -489,9 +488,8 @@ def _planes(material: Material) -> Iterator[Block]:
     words, rotor = material.words, material.machine.rotor
     if rotor is None:
         return
-    wanted = {(word, rotor.masses[index].name) for word, index in rotor.wanted}
     columns = {
-        key: [_of_mass(mass, key, wanted, words) for mass in rotor.masses]
+        key: [_of_mass(material, index, key) for index in range(len(rotor.masses))]
         for key in ("mass", "reciprocating", "radius", "moment", "angle", "position")
     }
     columns = {key: entries for key, entries in columns.items() if any(entry != "–" for entry in entries)}
@@ -500,21 +498,24 @@ def _planes(material: Material) -> Iterator[Block]:
     data = [row for key, row in _stated_rows(material).items() if not key.startswith("plane_")]
     task = words.sentence("masses_listed", count=str(len(names)), table=Reference("t:masses"))
     task += (" ", *words.sentence("others_listed", table=Reference("t:data"))) if data else ()
-    yield Paragraph((*task, " ", *words.sentence("masses_wanted" if wanted else "masses_left")))
+    yield Paragraph((*task, " ", *words.sentence("masses_wanted" if rotor.wanted else "masses_left")))
     rows = list(zip(names, *columns.values(), strict=True))
     yield words.table("given_masses", titles, rows, "l" + "r" * len(columns), "t:masses")
     if data:
         yield value_table("data", data, words)
 
 
-def _of_mass(mass: PlaneMass, key: str, wanted: Collection[tuple[str, str]], words: Words) -> str:
+def _of_mass(material: Material, index: int, key: str) -> str:
     """Return a value of a mass in a plane, a question mark where it is wanted."""
+    rotor = material.machine.rotor
+    if rotor is None:
+        return ""
+    mass, wanted = rotor.masses[index], rotor.wanted
     value = getattr(mass, key)
     if value or (value is not None and key != "reciprocating"):
-        return words.shown(f"plane_{key}", value)
+        return material.words.shown(f"plane_{key}", value)
     sizes = ("mass", "radius") if mass.mass or mass.radius else () if mass.sector else ("moment",)
-    is_open = (key, mass.name) in wanted or (key in sizes and ("size", mass.name) in wanted)
-    return "?" if is_open else "–"
+    return "?" if (key, index) in wanted or (key in sizes and ("size", index) in wanted) else "–"
 
 
 def _shaft(material: Material) -> Iterator[Block]:

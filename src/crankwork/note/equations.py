@@ -177,10 +177,10 @@ def _symbols(step: FormulaLine, language: Language) -> dict[str, str]:
     """Return the symbols of the arguments that stand for one of several values."""
     symbols = {name: value_symbol(key, language) for name, key in step.named}
     # what a value is made of, and goes by its name, stands apart from it
-    return symbols | {name: _apart(symbols[name]) for name, key in step.named if key == step.key}
+    return symbols | {name: _in_parentheses(symbols[name]) for name, key in step.named if key == step.key}
 
 
-def _apart(shown: str) -> str:
+def _in_parentheses(shown: str) -> str:
     base, _, below = shown.partition("_")
     return f"{base}_({below})" if below and not below.startswith("(") else shown
 

@@ -38,7 +38,7 @@ PAGE, _LITTLE, _EMPTY = 728.0, 60.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
 # height of the caption of a figure [pt], by what share its height may be wrong, what share of its size it keeps
-_CAPTION, _SPARE, _SMALLEST = 36.0, 0.02, 0.8
+_CAPTION, _TOLERANCE, _SMALLEST = 36.0, 0.02, 0.8
 # rows of a table that stays on one page with its caption, and the list of symbols, which may be divided anywhere
 TOGETHER, _DIVIDED = 20, "t:nomenclature"
 
@@ -225,7 +225,7 @@ def _share_of_size(block: Block, height: float, free: float) -> float:
     """Return the share of its size at which a figure has room on its page, the whole where that is too small."""
     if not isinstance(block, Figure) or block.half or block.to_scale or height <= _CAPTION:
         return 1.0
-    share = (free - _SPARE * height - _CAPTION) / (height - _CAPTION)
+    share = (free - _TOLERANCE * height - _CAPTION) / (height - _CAPTION)
     return share if _SMALLEST <= share < 1.0 else 1.0
 
 

@@ -705,9 +705,9 @@ def _along_shaft(
 ) -> Graph:
     """Draw a shaft from the side: a line in each plane, as high as the moment of its mass goes up."""
     z, up = machine.shown("plane_position", along), machine.shown("plane_moment", moments[:, 1])
-    spare = 0.12 * float(np.ptp(z))
+    margin = 0.12 * float(np.ptp(z))
     low, high = min(0.0, float(up.min())), max(0.0, float(up.max()))
-    x, y = (float(z.min()) - spare, float(z.max()) + spare), (low - 0.1 * (high - low), high + 0.1 * (high - low))
+    x, y = (float(z.min()) - margin, float(z.max()) + margin), (low - 0.1 * (high - low), high + 0.1 * (high - low))
     graph = Graph(paper, box, x, y, machine.language)
     graph.frame(round_ticks(*x, 4), round_ticks(*y, 4))
     ends = [

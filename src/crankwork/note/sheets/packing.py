@@ -32,7 +32,7 @@ from crankwork.show.scene import (
 )
 
 # between rows of a heading and of scales, and between both [mm]
-_TITLE_ROW, _ROW, _APART = 8.5, 6.0, 2.0
+_TITLE_ROW, _ROW, _HEADING_GAP = 8.5, 6.0, 2.0
 _LEFT, _RIGHT = 35.0, 7.0
 # how much taller than in a text the graphs of a figure are tried
 _SCALES = tuple(0.3 * 1.16**step for step in range(21))
@@ -259,7 +259,7 @@ def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout)
     rows = [*((text, TITLE) for text in next(title for title in tried if len(title) == len(tried[-1]))), *rows]
     items: list[Item] = []
     for text, height in reversed(rows):
-        top += _APART if items and len(items) == scale_rows else 0.0
+        top += _HEADING_GAP if items and len(items) == scale_rows else 0.0
         items.append(Text((middle, top + 1.5), text, height, "middle"))
         top += _TITLE_ROW if len(items) > scale_rows else _ROW
     drawing = drawing._replace(items=(*drawing.items, *items))
