@@ -120,7 +120,5 @@ def test_a_driving_shaft_that_keeps_its_speed() -> None:
     ],
 )
 def test_what_never_engages_is_refused(text: str) -> None:
-    with pytest.raises(
-        CrankworkError, match=r"never comes|not below the outer|nothing follows|must be faster"
-    ):
+    with pytest.raises(CrankworkError, match=r"never comes|not below the outer|nothing follows|must be faster"):
         analysed(text)

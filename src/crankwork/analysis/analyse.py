@@ -193,10 +193,6 @@ def _without_mechanism(machine: Machine, grid: CrankGrid | None) -> Results:
         from crankwork.analysis.rotor_balance import analyse_rotor  # noqa: PLC0415
 
         return analyse_rotor(machine, machine.rotor, grid)
-    if machine.clutch is not None:
-        from crankwork.analysis.clutch import analyse_clutch  # noqa: PLC0415
-
-        return analyse_clutch(machine)
     from crankwork.analysis.test_bed import analyse_test  # noqa: PLC0415
 
     return analyse_test(machine)

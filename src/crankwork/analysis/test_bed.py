@@ -9,16 +9,17 @@ import numpy as np
 from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
+from crankwork.preparation.clutch import worked_clutch
 from crankwork.preparation.prepared import PreparedMachine
 from crankwork.preparation.test_bed import worked_alone, worked_with_engine
 
 
 def analyse_test(machine: Machine) -> Results:
-    """Return the results of a test of an engine of which only sizes are known."""
-    worked, grid = worked_alone(machine), CrankGrid.from_degrees(np.array([0.0]))
+    """Return the results of a test of an engine of which only sizes are known, or of a clutch alone."""
+    grid, worked = CrankGrid.from_degrees(np.array([0.0])), (worked_clutch if machine.clutch else worked_alone)(machine)
     summary = {key: value.value for key, value in worked.items()}
     solved = PreparedMachine(machine, machine.method, machine.speed)
-    return Results(solved, grid, {}, summary, {}, (), {"test": tuple(worked)}, trace=worked)
+    return Results(solved, grid, {}, summary, {}, (), {machine.alone: tuple(worked)}, trace=worked)
 
 
 def with_test(results: Results) -> Results:

@@ -160,7 +160,7 @@ def build_test(values: Values, reader: Reader) -> Machine | None:
 
 def build_clutch(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of a clutch alone, or None after complaints."""
-    from crankwork.analysis.clutch import analyse_clutch  # noqa: PLC0415 - few files have a clutch
+    from crankwork.preparation.clutch import worked_clutch  # noqa: PLC0415 - few files have a clutch
 
     method, table = exact_method(values, reader), values["clutch"]
     if reader.problems or table is None:
@@ -170,7 +170,7 @@ def build_clutch(values: Values, reader: Reader) -> Machine | None:
         return None
     machine = machine_alone(values, method, 1.0, clutch=table["contact"] or "uniform wear")
     try:
-        analyse_clutch(machine)
+        worked_clutch(machine)
     except CrankworkError as error:
         reader.add_error(getattr(error, "key", "clutch"), error.args[0])
         return None

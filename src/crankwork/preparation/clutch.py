@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from crankwork.analysis.results import Results
 from crankwork.formula.calculation import Calculation
-from crankwork.formula.traced_value import absent, given
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.formula.traced_value import TracedValue, absent, given
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
-from crankwork.preparation.prepared import PreparedMachine
 from crankwork.shaft.clutch import inertia_of_side, work_clutch
 
 # quantities of the numbers that a file states, and those of a shaft behind its name
@@ -23,8 +18,8 @@ _QUANTITIES = {
 _OF_SIDE = {"torque": "load", "radius_of_gyration": "gyration_radius"}
 
 
-def analyse_clutch(machine: Machine) -> Results:
-    """Return the results of a clutch (khurmi_gupta_2005, ch. 10); raise DiagramError if nothing follows."""
+def worked_clutch(machine: Machine) -> dict[str, TracedValue]:
+    """Return what follows for a clutch (khurmi_gupta_2005, ch. 10); raise DiagramError if nothing does."""
     worked = Calculation()
     for path, number in machine.stated.items():
         side, _, key = path.removeprefix("clutch.").rpartition(".")
@@ -47,8 +42,4 @@ def analyse_clutch(machine: Machine) -> Results:
         raise DiagramError("clutch.driven.torque", ErrorMessage("clutch_slips"))
     if "slip_time" in worked.known and worked["slip_time"].value < 0:
         raise DiagramError("clutch.driving.speed", ErrorMessage("clutch_slower"))
-    trace = {key: value for key, value in {**worked.known, **worked.found}.items() if not value.is_absent}
-    summary = {key: value.value for key, value in trace.items()}
-    solved = PreparedMachine(machine, machine.method, machine.speed)
-    grid = CrankGrid.from_degrees(np.array([0.0]))
-    return Results(solved, grid, {}, summary, {}, (), {"clutch": tuple(trace)}, trace=trace)
+    return {key: value for key, value in {**worked.known, **worked.found}.items() if not value.is_absent}
