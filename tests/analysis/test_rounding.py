@@ -107,7 +107,7 @@ def test_an_engine_without_gas_has_no_excess_work_but_that_of_its_inertia():
     file = "crank = { radius = '43 mm', speed = '5600 rpm' }\nrod = { length = '150 mm', mass = '0.6 kg' }\n"
     engine = crankwork.Description(file + "piston.mass = '0.45 kg'\nengine = { layout = 'inline', cylinders = 4 }")
     results = crankwork.analyse(engine.machine(["rod.small_end_share=0.27", "engine.firing_order=[1, 3, 4, 2]"]))
-    assert 0 < results.summary["excess_work"] < 1e-9
+    assert 0 <= results.summary["excess_work"] < 1e-9
     printed = summary_without_rounding(results)
     assert printed["excess_work"] == 0
     assert printed["excess_work.mertsalov"] > 100

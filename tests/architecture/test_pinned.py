@@ -16,9 +16,9 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "f4b474cf9fab",
-    "formulas": "7590ac5349b7",
-    "quantities": "f052ff0a4d6b",
+    "symbols": "3be719c08af6",
+    "formulas": "bd43ba84fc48",
+    "quantities": "dfce1c8a571c",
     "defaults": "59fd6ef75afd",
 }
 

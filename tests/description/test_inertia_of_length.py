@@ -64,8 +64,8 @@ def test_it_follows_mass_and_length_and_is_explained() -> None:
     assert designs.values["reduced_inertia_max"] == pytest.approx(plain, rel=1e-9)
     assert designs.reason == ""
     explained = crankwork.analyse(crankwork.read_machine(text)).explain("reduced_inertia", 30)
-    assert "J_S,rod = k_J,rod·m_rod·l_rod·l_rod" in explained
-    assert "J_S,rocker = J_e,rocker − m_rocker·l_rocker·l_rocker/4" in explained
+    assert "J_S,rod = k_J,rod·m_rod·l_rod²" in explained
+    assert "J_S,rocker = J_e,rocker − m_rocker·l_rocker²/4" in explained
 
 
 @for_each("stated", ["425.1666666667 kg/m", "425.1666666667 кг/м", "4169.46069416711 N/m"])

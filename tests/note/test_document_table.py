@@ -9,7 +9,7 @@ import pytest
 import crankwork
 import notes
 from crankwork.description.document import Description
-from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.keys import CLUTCH_FILE, MACHINE_FILE
 from crankwork.description.links_keys import LINKAGE_FILE, ROTOR_FILE, TRANSFER_FILE, TURNING_FILE
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import InputError
@@ -151,6 +151,7 @@ FILES = (
     (TRANSFER_FILE, ("press",)),
     (TURNING_FILE, ("punching-machine",)),
     (ROTOR_FILE, ("balancing",)),
+    (CLUTCH_FILE, ()),
 )
 
 

@@ -111,7 +111,8 @@ def _fast_work(results: Results) -> Iterator[Notice]:
         if ratio > _CLEARLY_FASTER:
             high, low = (results.summary[f"slider_displacement_{end}_angle.{load.slider}"] for end in ("max", "min"))
             if load.forward * ((high - low) % math.tau - math.pi) < 0:
-                yield Notice("fast_work", {"name": load.slider, "ratio": ratio, "path": f"loads[{number}].stroke"})
+                keys = {"path": f"loads[{number}].stroke", "direction": "crank.direction"}
+                yield Notice("fast_work", {"name": load.slider, "ratio": ratio, **keys})
 
 
 def _outside(usual: _Range, value: float | None, machine: Machine) -> Iterator[Notice]:
