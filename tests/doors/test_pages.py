@@ -170,13 +170,13 @@ def test_the_files_of_the_guide_are_read(crankwork, tmp_path, machine_file) -> N
     shown = re.findall(r"^[a-z_]+ = .*?(?=  |$)|^\[.*?\](?=  |$)", engines[0], re.MULTILINE)
     assert [line for line in shown if line not in example] == []
     v8 = (ROOT / "examples" / "v8-diesel.toml").read_text("utf-8")
-    lines = [line.partition("#")[0].strip() for line in engines[1].splitlines() if line.strip()]
+    lines = [line.partition("#")[0].strip() for line in engines[2].splitlines() if line.strip()]
     assert [line for line in lines if line not in v8] == []
     engine = template("slider-crank").replace('bore = "80 mm"', 'bore = "80 mm"\ncompression_ratio = 9')
     (tmp_path / "card.csv").write_text(
         "angle [deg],p [bar]\n" + "".join(f"{angle},{_pressure(angle):.6f}\n" for angle in range(720)), "utf-8"
     )
-    for text in (engine + engines[2], template("engine") + notes[0], engine + '[gas]\ncycle = "720 deg"\n' + measured):
+    for text in (engine + engines[1], engine + engines[3], template("engine") + notes[0], engine + '[gas]\ncycle = "720 deg"\n' + measured):
         answer = crankwork("check", machine_file(text=text))
         assert answer.code == 0, answer.err
 
