@@ -176,7 +176,12 @@ def test_the_files_of_the_guide_are_read(crankwork, tmp_path, machine_file) -> N
     (tmp_path / "card.csv").write_text(
         "angle [deg],p [bar]\n" + "".join(f"{angle},{_pressure(angle):.6f}\n" for angle in range(720)), "utf-8"
     )
-    for text in (engine + engines[1], engine + engines[3], template("engine") + notes[0], engine + '[gas]\ncycle = "720 deg"\n' + measured):
+    for text in (
+        engine + engines[1],
+        engine + engines[3],
+        template("engine") + notes[0],
+        engine + '[gas]\ncycle = "720 deg"\n' + measured,
+    ):
         answer = crankwork("check", machine_file(text=text))
         assert answer.code == 0, answer.err
 

@@ -60,7 +60,7 @@ from crankwork.report.look import figure_title, kind_of
 from crankwork.report.notices import notice_text, sentence_lists
 from crankwork.report.summary import by_subject, check_status, provenance, results_method
 from crankwork.show.animation import Animation
-from crankwork.show.canvas import SCREEN, use_layout
+from crankwork.show.canvas import MM, SCREEN, use_layout
 from crankwork.show.inline import inline_film, inline_positions, inline_svg
 from crankwork.show.scene import Drawing
 from crankwork.show.theme import alt_text
@@ -75,7 +75,7 @@ _OF_TABS = {
     "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded",
 }
 _TABS = ("motion", "forces", "torque", "bearings", "balance")
-_FIRST = ("torque", "torques")
+_FIRST, _FIRST_LAYOUT = ("total_torque", "torque", "torques"), SCREEN._replace(width=120 / MM, tall=0.6)
 _CARDS = 6
 # between positions of plans at most [deg], and how many there are at most
 _WIDEST, _MOST = 15.0, 75
@@ -290,6 +290,11 @@ def page(
     live = None if moved is None else LivePage(moved, language=language)
     drawn = drawings(results, language=language) if live is None else live.drawn
     film = film_of(results, language=language, forces=True)
+    # beside the machine there is room for one
+    first = "" if film is None or live else next((name for name in _FIRST if name in drawn), "")
+    if first:
+        with use_layout(_FIRST_LAYOUT):
+            drawn |= drawings(results, language=language, only={first})
     data = page_data(results, drawn, film, language)
     pictures = _positions(results, data["figures"], language, is_still=live is None)
     for name, drawing in drawn.items():
@@ -304,8 +309,7 @@ def page(
         trace.follow(live)
         marks, steps, is_filed = follow(live, results, data)
     figures = _figures(drawn, pictures, marks, language)
-    # beside the machine there is room for one
-    first = "" if film is None or live else next((figures.pop(name) for name in _FIRST if name in figures), "")
+    first_figure = figures.pop(first, "")
     title, listed = title_of(results, language), words("tables", language)
     explained = set(data["memories"]["keys"])
     parts = [
@@ -318,7 +322,7 @@ def page(
         *([] if film is None else _machine(film, language, is_filed=is_filed)),
         '<div class="side">',
         *cards(results, explained, language, live),
-        *([first] if live is None or moved is None else _sliders(live, moved, language)),
+        *([first_figure] if live is None or moved is None else _sliders(live, moved, language)),
         "</div></div>",
         *_panels(figures, language),
         *values(results, explained, language, live),

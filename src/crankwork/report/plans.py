@@ -178,7 +178,8 @@ def _figure(
     has_list = position is None and not is_narrow()
     side = current_layout().width - (_LIST_WIDTH if has_list else 0.0)
     rows = [] if position is not None else [
-        *_rows(plan.vectors if by_turns else seen, plan, kind, language, whole=by_turns), *_link_names(style, plan)
+        *_rows(plan.vectors if by_turns else seen, plan, kind, language, all_turning=by_turns),
+        *_link_names(style, plan),
     ]  # fmt: skip
     # long names stand beside the outermost ends, those of one end together
     ends: dict[tuple[float, ...], str] = {}
@@ -265,8 +266,10 @@ def node_name(letter: str) -> str:
     return letter[0].lower() + letter[1:] if len(letter) <= 3 else letter
 
 
-def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language, *, whole: bool) -> list[str]:
-    """Return the magnitudes of the vectors and the turning of the links; `whole`: of all that turn somewhere."""
+def _rows(
+    vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language, *, all_turning: bool
+) -> list[str]:
+    """Return the magnitudes of the vectors and the turning of the links; `all_turning`: of all that turn somewhere."""
     rows, unit, least = [], unit_name(kind.unit, language), _ZERO * _longest(plan)
     for vector in vectors:
         mark = vector_mark(vector.kind, language) if kind.sign == "a" else ""
@@ -275,7 +278,7 @@ def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Lan
     unit = unit_name(kind.turning_unit, language)
     least = _ZERO * max(kind.size, *(abs(rate) for rate in plan.turning.values()))
     for link, value in plan.turning.items():
-        if abs(value) > least or (whole and value):
+        if abs(value) > least or (all_turning and value):
             name = math_symbol(f"{kind.turning}_{link}")
             rows.append(f"{name} = {_four_digits(value if abs(value) > least else 0.0, language)} {unit}")
     return rows
