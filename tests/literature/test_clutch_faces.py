@@ -122,3 +122,15 @@ def test_a_driving_shaft_that_keeps_its_speed() -> None:
 def test_what_never_engages_is_refused(text: str) -> None:
     with pytest.raises(CrankworkError, match=r"never comes|not below the outer|nothing follows|must be faster"):
         analysed(text)
+
+
+def test_a_shaft_at_rest_is_brought_to_a_speed_that_is_kept() -> None:
+    results = analysed(
+        'format = 2\nclutch.torque = "180 N*m"\nclutch.driving.speed = "900 rpm"\n'
+        'clutch.driven = { inertia = "1.4 kg*m2", torque = "20 N*m" }\n'
+    )
+    speed, time = 900 * math.pi / 30, results["slip_time"]
+    # momentum of the driven shaft, and what the driving shaft delivers less what the other takes
+    assert (180 - 20) * time == pytest.approx(1.4 * speed, rel=1e-12)
+    taken = 1.4 * speed**2 / 2 + 20 * speed * time / 2
+    assert results["slip_heat"] == pytest.approx(180 * speed * time - taken, rel=1e-12)
