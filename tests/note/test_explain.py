@@ -150,8 +150,8 @@ FOLLOWED = {
     ),
     # the working cycle of books has letters that the motion has too
     ("v8-diesel", "total_torque --at 100 --lang vi"): ("M_hh = α_kk·M_0 = …",),
-    ("v8-diesel", "gas_pressure --at 370 --lang vi"): ("p = đường cong nối…·τ·τ·…",),
-    ("v8-diesel", "gas_pressure --at 370 --lang ru"): ("p = плавная кривая…·τ·τ·…",),
+    ("v8-diesel", "gas_pressure --at 370 --lang vi"): ("p = đường cong nối……τ²…",),
+    ("v8-diesel", "gas_pressure --at 370 --lang ru"): ("p = плавная кривая……τ²…",),
     ("press-geometry", "joint_force.D --at 60"): (
         "Joint force, D: R_D(60°) = …",
         "Given values",

@@ -713,7 +713,7 @@ def _along_shaft(
     ends = [
         (graph.point(place, 0.0), graph.point(place, end)) for place, end in zip(z.tolist(), up.tolist(), strict=True)
     ]
-    paper.segments(np.array([(*graph.point(float(z.min()), 0.0), *graph.point(float(z.max()), 0.0))]), width=1.8)
+    paper.segments(np.array([(*graph.point(float(z.min()), 0.0), *graph.point(float(z.max()), 0.0))]), width=0.9)
     for foot, head in ends:
         paper.segments(np.array([(*foot, *head)]), width=0.9)
         paper.dot(*head, 2.6)
