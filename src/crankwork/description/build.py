@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -150,12 +151,7 @@ def build_test(values: Values, reader: Reader) -> Machine | None:
         Mechanism(Crank(radius=radius), ()), speed, title=values["title"] or "", cylinder=cylinder, method=method,
         stated=stated_numbers(values), test=test,
     )  # fmt: skip
-    try:
-        worked_alone(machine)
-    except CrankworkError as error:
-        reader.add_error(getattr(error, "key", "test"), error.args[0])
-        return None
-    return machine
+    return _workable(machine, worked_alone, "test", reader)
 
 
 def build_clutch(values: Values, reader: Reader) -> Machine | None:
@@ -169,10 +165,15 @@ def build_clutch(values: Values, reader: Reader) -> Machine | None:
         reader.add_error("clutch.inner_diameter", ErrorMessage("clutch_inner"))
         return None
     machine = machine_alone(values, method, 1.0, clutch=table["contact"] or "uniform wear")
+    return _workable(machine, worked_clutch, "clutch", reader)
+
+
+def _workable(machine: Machine, work: Callable[[Machine], object], table: str, reader: Reader) -> Machine | None:
+    """Return a machine from whose table something follows, or None after the complaint."""
     try:
-        worked_clutch(machine)
+        work(machine)
     except CrankworkError as error:
-        reader.add_error(getattr(error, "key", "clutch"), error.args[0])
+        reader.add_error(getattr(error, "key", table), error.args[0])
         return None
     return machine
 
