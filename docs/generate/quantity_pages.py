@@ -21,8 +21,6 @@ from crankwork.sources import cite, school_source
 from html_text import code, entry, raw, sentence, text
 from key_pages import WORDS
 
-_SIGN = re.compile(r"\b(?:positive|negative)\b[^;.]*")
-
 
 @functools.cache
 def formulas() -> Mapping[str, tuple[Formula, ...]]:
@@ -60,9 +58,9 @@ def quantity_entry(quantity: Quantity, language: Language, owners: Mapping[str, 
     owner = words["of_machine"] if key and not key_of(key).owner else ""
     if key and not owner:
         owner = text(words["owner_example"].format(example=f"`{key}`", file=f"`{example}`"))
-    sign = _SIGN.search(quantity.definition)
-    note = f" <i>({words['definition_language']})</i>" if words["definition_language"] else ""
-    said = f"<strong>{text(capital(quantity.label(language)))}.</strong> {text(sentence(quantity.definition))}{note}"
+    definition = quantity.definition(language)
+    sign = re.search(words["sign_in_definition"], definition)
+    said = f"<strong>{text(capital(quantity.label(language)))}.</strong> {text(sentence(definition))}"
     equations = [formula_html(one, language) for one in formulas().get(quantity.key, ())]
     facts = [
         (words["symbol"], math(symbol_box(quantity.symbol(language)))),
@@ -111,8 +109,8 @@ def without_name() -> list[str]:
         for rows in SUBJECTS.values()
         for quantity in rows
         for language in LANGUAGES
-        if len(quantity.definition.split()) < 2
-        or not quantity.definition.endswith(".")
+        if len(quantity.definition(language).split()) < 2
+        or not quantity.definition(language).endswith(".")
         or not quantity.symbol(language)
         or not quantity.label(language)
     ]

@@ -67,6 +67,7 @@ def texts_of_help() -> set[str]:
 # and rooms with one text for each entry of a table
 TABLES = {
     "arguments": ARGUMENTS,
+    "definitions": QUANTITIES,
     "fields": set().union(*map(texts_of, FILES)),
     "help": texts_of_help(),
     "kinds": (*vars(dyads), "opposed"),
@@ -160,8 +161,8 @@ def test_every_key_that_the_source_spells_has_its_text():
     assert {key for key in _SAME if has_text(key)} == set()
 
 
-def test_every_quantity_has_name_and_symbol():
-    assert list(texts("quantities", "en")) == list(QUANTITIES)
+def test_every_quantity_has_name_symbol_and_definition():
+    assert list(texts("quantities", "en")) == list(texts("definitions", "en")) == list(QUANTITIES)
     assert set(QUANTITIES) <= set(texts("symbols", "en"))
 
 

@@ -13,7 +13,7 @@ import key_pages
 import quantity_pages
 from crankwork.cli import commands
 from crankwork.locale import LANGUAGES
-from crankwork.quantities import SUBJECTS
+from crankwork.quantities import QUANTITIES, SUBJECTS
 from each import for_each
 
 IDENTITIES = re.compile(r'class="entry" id="([^"]+)"')
@@ -65,6 +65,16 @@ def test_every_quantity_has_an_entry_with_a_sentence():
     written = "\n".join(text for _, text in quantity_pages.pages("ru", {}))
     assert set(IDENTITIES.findall(written)) == {row.key for rows in SUBJECTS.values() for row in rows}
     assert quantity_pages.without_name() == []
+
+
+def test_the_definition_of_a_quantity_tells_its_sign_in_every_language():
+    wrong = {}
+    for quantity in QUANTITIES.values():
+        said = {language: quantity.definition(language) for language in LANGUAGES}
+        signs = {one: bool(re.search(key_pages.WORDS[one]["sign_in_definition"], said[one])) for one in LANGUAGES}
+        if len({*signs.values()}) > 1 or said["vi"] == said["en"] or not re.search("[а-яё]{3}", said["ru"]):
+            wrong[quantity.key] = said
+    assert wrong == {}
 
 
 @for_each("language", LANGUAGES)

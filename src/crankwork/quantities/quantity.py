@@ -29,7 +29,6 @@ class Quantity(NamedTuple):
 
     key: str
     metric: str
-    definition: str
     metric_per_area: str = ""
 
     @property
@@ -62,9 +61,18 @@ class Quantity(NamedTuple):
         name = translate(f"quantities.{kind}", language)
         return owned_name(name, part.replace(".", ", "))
 
+    def definition(self, language: Language = "en") -> str:
+        """Return a sentence on what the quantity is and which direction is positive."""
+        return translate(f"definitions.{key_of(self.key).quantity}", language)
+
     def _split(self) -> tuple[str, str]:
         kind, part = key_of(self.key)
         return kind, own_name(kind, part)
+
+
+def table(**units: str) -> tuple[Quantity, ...]:
+    """Return rows of the table from their units by key: `N or MPa` where forces may be given per piston area."""
+    return tuple(Quantity(key, *unit.split(" or ")) for key, unit in units.items())
 
 
 _NUMBERS: ContextVar[Mapping[str, str]] = ContextVar("numbers", default=MappingProxyType({}))

@@ -149,7 +149,7 @@ def _attributes(key: str, *, shown: bool) -> dict[str, str]:
         "long_name": label(key, "en"),
         "symbol": symbol(key, "en"),
     }
-    return texts if row is None else texts | {"definition": row.definition}
+    return texts if row is None else texts | {"definition": row.definition("en")}
 
 
 @in_own_units
