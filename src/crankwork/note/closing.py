@@ -65,6 +65,10 @@ _NUMBERS = (
     "flywheel_inertia.exact", "speed_fluctuation", "standard_motor_power", "piston_velocity_max",
     "piston_acceleration_max", "piston_acceleration_min", "natural_frequency", "vibration_stress",
 )  # fmt: skip
+_OF_TESTS = (
+    "effective_power", "indicated_power", "mechanical_efficiency", "fuel_rate", "effective_fuel_consumption",
+    "effective_efficiency", "volumetric_efficiency", "air_fuel_ratio",
+)  # fmt: skip
 # what another makes needless: a flywheel may follow from another excess work than that of the shaft
 _SAME = {
     "shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",), "indicated_power": ("effective_power",),
@@ -213,6 +217,8 @@ def main_keys(results: Results) -> list[str]:
     if results.machine.rotor is not None:
         keys = [key for key in summary if not _is_place(key) and key_of(key).quantity in _OF_LINKAGES]
         return keys or list(summary)
+    if results.machine.alone == "test":
+        return [key for key in _OF_TESTS if key in summary]
     # a linkage has a joint there
     numbers = [kind for kind in _NUMBERS if "piston_displacement" in results.columns or kind != "crankpin_load_max"]
     return [key for kind in numbers for key in _of(kind, summary)

@@ -33,6 +33,8 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
     "crankpin_bearing": ("crankpin_load_max", "mean_crankpin_load"),
     "evenness": ("flywheel_inertia", "speed_fluctuation"),
     "stages": ("motor_power", "stage_saving", "heat_removed"),
+    "test": ("indicated_power", "effective_power", "mechanical_loss_power", "mechanical_efficiency"),
+    "clutch": ("clutch_torque", "clutch_force"), "engagement": ("engaged_speed", "slip_heat"),
 }
 # residuals and differences below this share are those of the computer's arithmetic
 ROUNDING = 1e-9
@@ -189,7 +191,8 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
     """Yield what the results of a linkage mean, in a few sentences."""
     words, summary, checks = material.words, material.summary, material.results.checks
     sentences = (_of_output(material), reading("joint_forces", material), reading("torques", material),
-                 reading("stages", material), *_of_torsion(material))  # fmt: skip
+                 *(reading(kind, material) for kind in ("stages", "test", "clutch", "engagement")),
+                 *_of_torsion(material))  # fmt: skip
     yield from (sentence for sentence in sentences if sentence is not None)
     masses = {key_of(key).owner: value for key, value in summary.items() if key_of(key).quantity == "plane_mass"}
     balanced = [
