@@ -34,7 +34,8 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
     "evenness": ("flywheel_inertia", "speed_fluctuation"),
     "stages": ("motor_power", "stage_saving", "heat_removed"),
     "test": ("indicated_power", "effective_power", "mechanical_loss_power", "mechanical_efficiency"),
-    "clutch": ("clutch_torque", "clutch_force"), "engagement": ("engaged_speed", "slip_heat"),
+    "clutch": ("clutch_torque", "clutch_force"),
+    "engagement": ("engaged_speed", "slip_heat"),
 }
 # residuals and differences below this share are those of the computer's arithmetic
 ROUNDING = 1e-9
