@@ -15,7 +15,17 @@ import numpy as np
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.assumptions import _DISPLAY
 from crankwork.description.machine_file import Setting, apply_override, entry_at, file_keys, read_machine
-from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
+from crankwork.description.schema import (
+    InertiaKind,
+    ListOf,
+    NameOr,
+    NumberOr,
+    OneForAll,
+    OneOrMore,
+    TableSpec,
+    Values,
+    WordOr,
+)
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader, split_deviation
 from crankwork.errors import CrankworkError
 from crankwork.formula.replay import Program
@@ -86,8 +96,10 @@ def _defaults(value: Any, read: Any, kind: object, path: str) -> Iterator[tuple[
 
 def alternatives(value: Any, kind: object) -> Iterator[Any]:
     """Yield other values in the place of one."""
-    if isinstance(kind, NameOr):
-        kind = kind.other
+    while isinstance(kind, NameOr | OneForAll | OneOrMore):
+        kind = kind.other if isinstance(kind, NameOr) else kind.entry
+    if isinstance(kind, InertiaKind):
+        kind = kind.quantity
     elif isinstance(kind, NumberOr | WordOr):
         inner = [getattr(kind, name) for name in kind._fields if name in ("number", "quantity", "words")]
         kind = next((one for one in inner if isinstance(one, Quantity) == isinstance(value, str)), None)
@@ -310,6 +322,10 @@ EXCEPTIONS = {
     r"method\.pi": "a constant of mathematics, changed only to follow a book",
     r"method\.kinematics": "the summary names the method",
     r"(positions|branch)\..*": "they choose a circuit; others near by choose the same",
+    r"chambers\..*\.delay": "that of a calculated cycle chooses a dead centre; others near by choose the same",
+    r"transient\.(stops.*|restitution)|friction\.sliders\..*\.length|.*\.vapour_pressure": "limits not reached",
+    r"rotor\.kind": "it permits other keys",
+    r"torsion\.(discs|shafts|throw_shaft).*\.(damping|loss_factor)": "the first one makes damped modes",
     r"cycle\.kind": "the other kinds need other keys, and assigned ones differ by the corners that a school rounds",
     r"engine\.layout": "of few cylinders two layouts are one engine",
     r"motor\.(frequency|pole_pairs)": "of a motor that stalls another speed may make it turn",

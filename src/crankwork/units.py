@@ -285,6 +285,8 @@ EXAMPLES = {
 # names of more than one unit, and the messages that ask which is meant
 _DOUBTFUL = {"hp": "horsepower", "ton": "ton", "tons": "ton"}
 _MAX_LENGTH = 100
+# products of smaller numbers have no digits left [SI]
+_LEAST = 1e-60
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 # a unit that starts with a digit, 1/min, needs a space before it
 _UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
@@ -354,6 +356,8 @@ def parse(
         raise ValueError(ErrorMessage("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
     above, _, below = number.partition("/")
     value = to_si(float(above) / float(below or 1), spelling)
+    if 0 < abs(value) < _LEAST:
+        raise ValueError(ErrorMessage("too_small", text=_short(text)))
     if not math.isfinite(value):
         raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
     return (

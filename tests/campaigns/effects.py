@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from campaigns.forms import drawn
+from campaigns.grown import grown_file
 from crankwork.errors import CrankworkError
 from effects import mistold
 from expansions import ROOT, written
@@ -29,21 +30,31 @@ def _write(line: str) -> None:
     sys.stdout.flush()
 
 
+def machine(seed: int, number: int) -> tuple[str, Path]:
+    """Return the text of a machine file and the folder of its data; of each three, two are grown from files."""
+    if number % 3:
+        return grown_file(seed, number)
+    other = number // 3
+    text = written(drawn(seed, other)) if other % 2 else plausible_file(seed, other).text
+    return text, ROOT / "examples"
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Check machines and return how many are told wrongly."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--first", type=int, default=0, help="number of the first machine")
     options = parser.parse_args(arguments)
     signal.signal(signal.SIGPROF, _too_long)
     begun, wrong, checked, left = time.monotonic(), 0, 0, 0
-    number = -1
+    number = options.first - 1
     while checked < options.count:
         number += 1
-        text = written(drawn(options.seed, number)) if number % 2 else plausible_file(options.seed, number).text
+        text, folder = machine(options.seed, number)
         signal.setitimer(signal.ITIMER_PROF, _LONGEST)
         try:
-            keys = mistold(text, ROOT / "examples")
+            keys = mistold(text, folder)
         except CrankworkError:
             continue
         except TimeoutError:

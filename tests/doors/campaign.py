@@ -162,9 +162,14 @@ def _not_finite(results: Results) -> list[str]:
     ]
 
 
-# of bearings whose size is not stated, or with no rod along which their load reverses, of a link that never turns, and
-# of the last stage, behind which there is no cooler unless a final temperature is stated
-_MAY_BE_ABSENT = ("bearing_loads bearing_pressure", "bearing_loads reversal_", "instant_centre_", "stages cooler_heat")
+# of bearings whose size is not stated, or with no rod along which their load reverses, of a link that never turns, of
+# the last stage, behind which there is no cooler unless a final temperature is stated, of later stages whose clearance
+# is not stated, of masses given by their moment, of the last disc, and where no torque is needed
+_MAY_BE_ABSENT = (
+    "bearing_loads bearing_pressure", "bearing_loads reversal_", "instant_centre_", "stages cooler_heat",
+    "stages clearance_volumetric_efficiency", "planes plane_mass", "planes plane_radius", "holzer torsional_stiffness",
+    "instantaneous_efficiency",
+)  # fmt: skip
 
 
 def _refused(error: CrankworkError, text: str) -> Outcome:

@@ -20,11 +20,9 @@ from typing import Any
 
 from crankwork import units
 from crankwork.description import schema, value_types
-from crankwork.description.keys import SIZED_FILE
-from crankwork.description.links_keys import LINKAGE_FILE, TRANSFER_FILE
-from crankwork.description.machine_file import template, template_names
+from crankwork.description.machine_file import FILES, file_keys, template, template_names
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+FOLDERS = Path(__file__).parents[2] / "examples", Path(__file__).parents[1] / "machines"
 SIZES = (0.0, 5e-324, 1e-300, 1e-30, 1e-15, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, 1e15, 1e30, 1e300, 1e308)
 USUAL = {1e-9, 1e-6, 1e-3, 1, 1e3}
 WRONG: tuple[object, ...] = (
@@ -43,7 +41,8 @@ Values = dict[str, Any]
 @functools.cache
 def sources() -> dict[str, str]:
     """The files to begin with."""
-    found = {f"examples/{path.name}": path.read_text("utf-8") for path in sorted(EXAMPLES.glob("*.toml"))}
+    paths = [path for folder in FOLDERS for path in sorted(folder.glob("*.toml"))]
+    found = {f"{path.parent.name}/{path.name}": path.read_text("utf-8") for path in paths}
     return found | {f"templates/{name}": template(name) for name in template_names()}
 
 
@@ -54,8 +53,7 @@ def _systematic() -> tuple[tuple[str, Place, object], ...]:
     for name, text in sources().items():
         values = tomllib.loads(text)
         cases += [(name, place, value) for place, _ in _places(values) for value in WRONG]
-        for keys in (SIZED_FILE, LINKAGE_FILE, TRANSFER_FILE):
-            cases += [(name, place, value) for place, kind in _keys(keys, ()) for value in _fitting(kind)]
+        cases += [(name, place, value) for place, kind in _keys(file_keys(values), ()) for value in _fitting(kind)]
     random.Random("order").shuffle(cases)  # noqa: S311 - the same order every time
     return tuple(cases)
 
@@ -74,7 +72,7 @@ def _keys(table: schema.TableSpec, place: Place) -> Iterator[tuple[Place, value_
     for name, key in table.keys.items():
         here, kind = (*place, name), key.kind
         yield here, kind
-        while isinstance(kind, schema.MapOf | schema.ListOf | schema.NameOr):
+        while isinstance(kind, schema.MapOf | schema.ListOf | schema.NameOr | schema.OneForAll | schema.OneOrMore):
             here += {schema.MapOf: ("a",), schema.ListOf: (0,)}.get(type(kind), ())
             kind = kind.other if isinstance(kind, schema.NameOr) else kind.entry
         if isinstance(kind, schema.TableSpec):
@@ -109,6 +107,14 @@ def _fitting(kind: value_types.ValueType | None) -> list[Any]:  # noqa: C901 - o
             return [[0.9, [0.8, 0.7]]]
         case schema.NameOr():
             return ["a", "petrol", *_fitting(kind.other)]
+        case schema.OneForAll() | schema.OneOrMore():
+            return [*_fitting(kind.entry), *_fitting(schema.ListOf(kind.entry, 1))]
+        case schema.NumberOr() | schema.WordOr():
+            return [value for field in kind._fields for value in _fitting(getattr(kind, field))]
+        case schema.InertiaKind():
+            return ["m l^2 / 12", "0 m l^2", "1e-300 m l^2", "m l^2 / 0", *_fitting(kind.quantity)]
+        case value_types.UnitOf():
+            return units.spellings(kind.dimension)
         case schema.MapOf():
             return [{"a": one, "b": one} for one in _fitting(kind.entry)[:4]]
         case schema.TableSpec():
@@ -230,7 +236,7 @@ def _scale(draw: random.Random, values: Values) -> None:
 
 def _stretch(draw: random.Random, values: Values) -> None:
     """Values that their keys accept, many of them limits, in some places that have one."""
-    keys = TRANSFER_FILE if "transfer" in values else LINKAGE_FILE if "links" in values else SIZED_FILE
+    keys = file_keys(values)
     known = [(place, _fitting(_kind_at(keys, place))) for place, one in _places(values) if not isinstance(one, dict)]
     known = [(place, fitting) for place, fitting in known if fitting]
     for place, fitting in draw.sample(known, min(len(known), draw.choice((1, 1, 2, 3)))):
@@ -244,7 +250,7 @@ def _kind_at(kind: value_types.ValueType, place: Place) -> value_types.ValueType
         match kind:
             case schema.TableSpec() if name in kind.keys:
                 kind = kind.keys[name].kind
-            case schema.MapOf() | schema.ListOf():
+            case schema.MapOf() | schema.ListOf() | schema.OneForAll() | schema.OneOrMore():
                 kind = kind.entry
             case _:
                 return None
@@ -295,7 +301,7 @@ def _merge(draw: random.Random, values: Values) -> None:
 
 def _add(draw: random.Random, values: Values) -> None:
     """A key somewhere, with a value that suits it."""
-    table = draw.choice((SIZED_FILE, SIZED_FILE, LINKAGE_FILE, LINKAGE_FILE, TRANSFER_FILE))
+    table = draw.choice((file_keys(values), file_keys(values), draw.choice(FILES)))
     for place, kind in draw.sample(list(_keys(table, ())), draw.choice((1, 1, 2, 3))):
         fitting = _fitting(kind)
         names = sorted(_at(values, place[: place.index("a")]) or {"a": 0}) if "a" in place else ["a"]

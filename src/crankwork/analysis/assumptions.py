@@ -11,11 +11,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from crankwork.analysis.results import Results
+from crankwork.dynamics.friction import PinFriction
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import ProcessForce, Weight
 from crankwork.machine import FileInput, InputNumber
+from crankwork.shaft.torque_diagram import common_period
 from crankwork.working_cycle.fuels import FUELS
 from crankwork.working_cycle.schools import PEAK_LEVEL
 
@@ -31,6 +33,8 @@ _TRACED = re.compile(
     r"|engine\.articulated\.\w+|cycle\.\w+"
 )
 _FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
+# names of sliding pieces and links
+_OF_BODIES = re.compile(r".*\.(slider|links?|cylinders)(\[\d+\])?")
 _ABOUT = r"(crank|geared\..+)\.inertia_about"
 _FACE = re.compile(r"\.faces\[1\]")
 _SAMPLES, _ROUNDING, _EVEN = 721, 1e-9, 1e-6
@@ -218,8 +222,11 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
     (r"torsion\.modulus", lambda results, *_: "torsion.modulus" in leaves(results)),
     # undamped modes have no damping
-    (r"torsion\.(orders|.*\.(damping|loss_factor))", lambda results, *_: any(
-        key.startswith("vibration_amplitude") for key in results.summary)),
+    (r"torsion\.(orders|.*\.(damping|loss_factor))", lambda results, _, path: any(
+        key.startswith("vibration_amplitude") for key in results.summary)
+        or ("damped_modes" in results.listings and path != "torsion.orders")),
+    (r"friction\.circle|balance\.rotating_share|.*\.strokes\[\d+\]\.(shape|peak)|.*\.measured\.reversed",
+     lambda results, stated, path: not _idle(path, stated, results, ())),
 )  # fmt: skip
 
 
@@ -343,7 +350,7 @@ def _idle_numbering(results: Results, *_: object) -> str:
 def _idle_place(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
     """Return whether no part of a linkage names a fixed point or a guide."""
     place = path.partition(".")[2]
-    named = (str(item.value) for item in stated.values())
+    named = (str(item.value) for key, item in stated.items() if not _OF_BODIES.fullmatch(key))
     return "" if any(place.startswith((f"{name}.", f"{name}[")) for name in named) else "unused"
 
 
@@ -359,6 +366,43 @@ def _idle_about(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
     return "" if centre in stated or f"{centre}[1]" in stated else "about_centre"
 
 
+def _idle_place_of_mass(results: Results, _: Mapping[str, FileInput], path: str) -> str:
+    """Return whether the centre of mass of a link stands still."""
+    places = [results.columns.get(f"point_{axis}.{_part(path)}.centre", np.arange(2.0)) for axis in "xy"]
+    still = all(np.ptp(place) <= _ROUNDING * np.max(np.abs(place)) for place in places)
+    return "at_rest" if still and not _has_weights(results) else ""
+
+
+def _idle_period(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    """Return whether a torque is the same over twice its period, and the other torque has a longer one."""
+    name = path.partition(".")[0]
+    other, turning = {"torque": "load", "load": "torque"}[name], results.machine.turning
+    given = {key: getattr(turning, key) for key in (name, other)}
+    if turning is None or not {f"{other}.period", f"{other}.rate"} & stated.keys():
+        return ""
+    own, further = given[name], given[other]
+    repeats = own.points or own.strokes or any(own.delays) or not own.is_complete
+    return "" if repeats or common_period(2 * own.period, further.period) != turning.cycle else "unused"
+
+
+def _idle_shape(results: Results, _: Mapping[str, FileInput], path: str) -> str:
+    """Return whether a work is done at once."""
+    name, number = path.partition(".")[0], int(re.findall(r"\d+", path)[0])
+    stroke = getattr(results.machine.turning, name).strokes[number - 1]
+    return "" if stroke.over and stroke.work else "at_once" if stroke.work else "unused"
+
+
+def _idle_share(results: Results, *_: object) -> str:
+    masses = results.machine.masses
+    return "no_rotating_mass" if masses is not None and not masses.crank + masses.rod_big_end else ""
+
+
+def _idle_rod(results: Results, stated: Mapping[str, FileInput], _: str) -> str:
+    """Return whether the rod is no other one as two masses."""
+    masses = results.machine.masses
+    return "" if masses is None or masses.rod_inertia_excess or not _is_engine(stated) else "unused"
+
+
 def _idle_inertia(results: Results, _: Mapping[str, FileInput], path: str) -> str:
     angles = results.columns.get(f"link_angle.{_part(path)}", np.empty(0))
     return "never_turns" if len(angles) > 2 and np.ptp(angles) <= _ROUNDING else ""
@@ -372,7 +416,16 @@ def _idle_point(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
             if item.value == point and key.startswith(f"{gas}.pieces[")}  # fmt: skip
     if not uses:
         return "unused"
+    if name == "volume" and f"{place}.angle" in stated and point not in _states(gas, stated):
+        return "unused"
     return "only_volume" if name == "angle" and "points" not in uses and f"{place}.volume" in stated else ""
+
+
+def _states(gas: str, stated: Mapping[str, FileInput]) -> set[str]:
+    """Return the points whose volumes polytropes go through."""
+    pieces = [key.removesuffix(".law") for key, item in stated.items()
+              if key.startswith(f"{gas}.pieces[") and item.value == "polytropic"]  # fmt: skip
+    return {str((stated.get(f"{piece}.reference") or stated[f"{piece}.points[1]"]).value) for piece in pieces}
 
 
 def _idle_school(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
@@ -400,6 +453,17 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     # places of the links of one that is drawn turn with it
     (r"cylinder\.inclination", lambda known, *_: "" if known.machine.linkage or _has_weights(known) else "weights_off"),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
+    (r"links\..+\.mass", _idle_place_of_mass),
+    (r"sliders\..+\.inertia", lambda results, _, path: "" if _turns(results, _part(path)) else "never_turns"),
+    (r"friction\.circle", lambda results, *_: "" if any(
+        isinstance(law, PinFriction) and law.coefficient for law in results.machine.friction) else "no_rubbing_pin"),
+    (r"(torque|load)\.(period|rate)", _idle_period),
+    (r"(torque|load)\.strokes\[\d+\]\.(shape|peak)", _idle_shape),
+    (r"balance\.rotating_share", _idle_share),
+    (r"efficiency\.losses", lambda results, *_: "" if results.machine.friction else "unused"),
+    (r"method\.rod", _idle_rod),
+    (r"method\.inertia_rod_ratio", lambda results, stated, _: "" if _is_engine(stated) else "unused"),
+    (r"chambers\.[^.]+\.pressures", lambda _, stated, path: "unused" if f"{path[:-9]}cycle.kind" in stated else ""),
     (_ABOUT, _idle_about),
     (r"links\..+\.(inertia|radius_of_gyration)", _idle_inertia),
     (r"loads\[\d+\]\.acts", _idle_return),
@@ -419,6 +483,8 @@ def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) ->
     is_rounded = school != "none" and (corners == "rounded" or (corners is None and has_timing))
     if (kind in _CORNERS or name == "peak") and not (is_rounded and kind in _CORNERS):
         return "sharp_corners"
+    if name in ("ignition", "ignition_delay") and kind not in _CORNERS:
+        return "unused"
     if results.machine.cycle > 360.0:
         return "from_dead_centre" if name == "intake_closes" and kind in _CORNERS else ""
     other = {"intake_closes": "exhaust_closes", "exhaust_closes": "intake_closes"}.get(name, "")

@@ -696,8 +696,8 @@ POINT = TableSpec("point", {
 PIECE = TableSpec("piece", {
     "law": KeySpec(Choice(("constant", "polytropic", "rounded")), required=True),
     "points": KeySpec(ListOf(Text(60), fewest=2), required=True),
-    "exponent": KeySpec(Number(0.0, 5.0)),
-    "reference": KeySpec(Text(60)),
+    "exponent": KeySpec(Number(0.0, 5.0), only={"law": ("polytropic",)}),
+    "reference": KeySpec(Text(60), only={"law": ("polytropic",)}),
 })  # fmt: skip
 
 _PEG = TableSpec("peg", {

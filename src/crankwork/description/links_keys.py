@@ -423,8 +423,8 @@ _DIAGRAM = TableSpec("torque_diagram", {
     "excess_work": KeySpec(Quantity(("energy", "area"), 0.0, 1e12, above=True), instead_of=_other("excess_work")),
     "energy_fluctuation": KeySpec(Number(0.0, 1e3, above=True), instead_of=_other("energy_fluctuation")),
     "scale": KeySpec(_SCALE),
-    "cylinders": KeySpec(Number(1, 48, whole=True), instead_of=("delays",)),
-    "delays": KeySpec(ListOf(_ANY_TURN, fewest=1, most=48), instead_of=("cylinders",)),
+    "cylinders": KeySpec(Number(1, 48, whole=True), instead_of=("delays", *FORMS[3:])),
+    "delays": KeySpec(ListOf(_ANY_TURN, fewest=1, most=48), instead_of=("cylinders", *FORMS[3:])),
 })  # fmt: skip
 
 _REACH, _OWN_MASS = Quantity(("length",), -1e3, 1e3), Quantity(("mass",), 0.0, 1e6)

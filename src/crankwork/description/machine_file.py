@@ -49,6 +49,8 @@ from crankwork.description.schema import (
     NameOr,
     Nested,
     NumberOr,
+    OneForAll,
+    OneOrMore,
     TableSpec,
     Values,
     file_inputs,
@@ -213,7 +215,9 @@ def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
 def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
     """Return the keys that can never have an effect with the others, with the reason; in files of format 1 few."""
     idle = dict[str, ErrorMessage]()
-    if keys is ROTOR_FILE and not any(mass.si("reciprocating") for mass in (values["rotor"] or {}).get("masses") or ()):
+    if keys is ROTOR_FILE and not any(
+        mass and mass.si("reciprocating") for mass in (values["rotor"] or {}).get("masses") or ()
+    ):
         idle["rotor.reciprocating_share"] = ErrorMessage("rotor_no_pistons")
     if values["format"] == 1:
         return idle
@@ -333,9 +337,10 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
     except DiagramError as error:
         reader.add_error(error.key, in_file(error.key, error.args[0], values))
     except CrankworkError as error:
-        if "cycle" not in values:
+        table = next((name for name in ("cycle", "test") if name in values), "")
+        if not table:
             raise
-        reader.add_error("cycle", error.args[0])
+        reader.add_error(table, error.args[0])
     return machine
 
 
@@ -587,7 +592,7 @@ def entry_at(entry: object, step: str | int) -> object:
     match entry:
         case TableSpec():
             return entry.keys[step].kind if isinstance(step, str) and step in entry.keys else None
-        case MapOf() | ListOf() | Nested():
+        case MapOf() | ListOf() | Nested() | OneForAll() | OneOrMore():
             return entry.entry
         case NameOr():
             return entry_at(entry.other, step)

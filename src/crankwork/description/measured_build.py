@@ -114,17 +114,13 @@ def read_measured(values: Values, reader: Reader, path: str) -> MeasuredPressure
     pressure = samples[:, 1:] * UNITS[columns.pressure_unit].factor
     if np.all(np.diff(degrees) < 0):
         degrees, pressure, lines = degrees[::-1], pressure[::-1], lines[::-1]
-    if values["reversed"]:
-        degrees, pressure, lines = -degrees[::-1], pressure[::-1], lines[::-1]
     # the name in a note does not depend on the separator of folders
     name = PureWindowsPath(file).name
     first = columns.pressures[0]
     spelled = f"{table.names[first]} {table.written[first]}"
     reference = next((kind for kind, words in _REFERENCES.items() if words.search(spelled)), "")
     return MeasuredPressure(
-        degrees,
-        pressure,
-        lines,
+        *_forward(values, degrees, pressure, lines),
         name,
         table.notices + columns.notices,
         reference=reference,
@@ -152,8 +148,15 @@ def _listed(values: Values, reader: Reader, path: str) -> MeasuredPressure | Non
         return None
     pressure = np.array([number for _, number in numbers], dtype=float) * UNITS[values["pressure_unit"]].factor
     degrees = values.degrees("start") + values.degrees("step") * np.arange(len(pressure))
-    name = PureWindowsPath(values["file"] or "").name
-    return MeasuredPressure(degrees, pressure, tuple(line for line, _ in numbers), name, unit=values["pressure_unit"])
+    name, lines = PureWindowsPath(values["file"] or "").name, tuple(line for line, _ in numbers)
+    return MeasuredPressure(*_forward(values, degrees, pressure, lines), name, unit=values["pressure_unit"])
+
+
+def _forward(
+    values: Values, degrees: Array, pressure: Array, lines: tuple[int, ...]
+) -> tuple[Array, Array, tuple[int, ...]]:
+    """Return angles, pressures and lines as the crank turns, also where they are counted against it."""
+    return (-degrees[::-1], pressure[::-1], lines[::-1]) if values["reversed"] else (degrees, pressure, lines)
 
 
 def _without_unit(table: FileTable, column: int) -> ErrorMessage:

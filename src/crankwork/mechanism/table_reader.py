@@ -6,7 +6,7 @@ The tables come from `description`, which has checked keys and types.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from itertools import product
 from typing import Any
@@ -25,6 +25,8 @@ _MASS = ("mass", "inertia", "centre")
 _DRIVERS = ("slider", "cylinder", "between")
 _HALVES = ("barrel", "rod")
 _SAME = 1e-12
+# axes of wheels that turn about one point are less apart [m]
+_TOGETHER = 1e-9
 
 
 def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:
@@ -189,9 +191,16 @@ class _Reader:
         sense: Branch = -1 if table.get("direction") == "clockwise" else 1
         pivoted = ground.get(pivot, (0.0, 0.0))
         crank = Crank(radius, pivoted, start, sense, pin, law=law)
-        points = _points(table)
+        points = self._points("crank", table, {pin, *ground})
         places = {pivot: (0.0, 0.0), pin: (radius, 0.0), **points}
         return crank, self._turning("crank", Member(crank.link, points), table, places)
+
+    def _points(self, key: str, table: Table, placed: Container[object]) -> dict[str, Point]:
+        """Return the points of a body; report those that have their place already."""
+        points = _points(table)
+        for point in filter(placed.__contains__, points):
+            self._problem(f"{key}.points.{point}", ErrorMessage("point_placed", name=point))
+        return points
 
     def _geared(self, ground: Mapping[str, Point]) -> tuple[tuple[GearedCrank, ...], tuple[Member, ...]]:
         """Return the geared cranks, also as members."""
@@ -205,10 +214,11 @@ class _Reader:
                 self._problem(f"{key}.pivot", ErrorMessage("pivot_unknown", name=pivot))
             if not ratio:
                 self._problem(f"{key}.ratio", ErrorMessage("ratio_zero"))
-            if angle is not None and (ratio == 1 or pivot == self._table("crank").get("pivot")):
+            apart = math.dist(*(ground.get(name, (0.0, 0.0)) for name in (pivot, self._table("crank").get("pivot"))))
+            if angle is not None and (ratio == 1 or apart < _TOGETHER):
                 self._problem(f"{key}.pressure_angle", ErrorMessage("wheels_apart"))
             crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, table.get("start", 0.0), angle)
-            points = _points(table)
+            points = self._points(key, table, {self._table("crank").get("pin"), *ground})
             if not points:
                 self._problem(f"{key}.points", ErrorMessage("geared_points"))
             cranks.append(crank)
@@ -290,7 +300,7 @@ class _Reader:
         for name, table in self._table("sliders").items():
             key = f"sliders.{name}"
             guide = self._word(f"{key}.guide", table["guide"])
-            points = _points(table)
+            points = self._points(key, table, {table.get("pin")})
             if "pin" in table:
                 points = {self._word(f"{key}.pin", table["pin"]): (0.0, 0.0), **points}
             yield self._with_mass(key, table, Member(name, points, guide))

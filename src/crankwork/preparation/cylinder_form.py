@@ -149,7 +149,7 @@ class _Form:
             drive=drive,
             notices=(),
             way=None,
-            stated={key: number for key, number in machine.stated.items() if key == "crank.speed"},
+            stated={key: number for key, number in machine.stated.items() if key in ("crank.speed", "method.gravity")},
             engine=engine if is_engine else None,
         )
 
