@@ -104,7 +104,13 @@ def force_laws(results: Results) -> dict[str, tuple[Array, Array]]:
             if load.force.interpolation != "linear":
                 strokes = np.linspace(strokes[0], strokes[-1], _SAMPLES)
                 forces = load.force(strokes)
-            laws[load.slider] = load.start + load.forward * strokes, forces
+            places = load.start + load.forward * strokes
+            # as far as the piece goes
+            travel = results.columns.get(f"slider_displacement.{load.slider}", places)
+            inside = np.clip(places, np.min(travel), np.max(travel))
+            order = np.argsort(places)
+            reached = np.where(inside == places, forces, np.interp(inside, places[order], forces[order]))
+            laws[load.slider] = inside, reached
     return laws
 
 

@@ -245,7 +245,14 @@ def _of_kinds(*kinds: str) -> Callable[[Drawn], list[Sequence[str]]]:
     """Return what gives panels of the columns of each kind, a few in each."""
 
     def panels(machine: Drawn) -> list[Sequence[str]]:
-        return [keys for kind in kinds for keys in _by_fours(_named(machine.reached.columns, kind))]
+        columns, chosen = machine.reached.columns, list[Sequence[str]]()
+        for kind in kinds:
+            keys = _named(columns, kind)
+            groups = _together([columns[key] for key in keys])
+            # curves that coincide are drawn once
+            fours = (groups[start : start + _PER_PANEL] for start in range(0, len(groups), _PER_PANEL))
+            chosen += [[keys[index] for group in four for index in group] for four in fours]
+        return chosen
 
     return panels
 
@@ -654,6 +661,7 @@ def curves(
     remarks = [
         translate("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
+        *(_meant(*panel, style) for panel in sets if len(panel) == 1 and not _is_on_axis(panel, style)),
         remark,
         *key_of_links(known, known, style.language),
     ]
@@ -711,10 +719,15 @@ def _is_on_axis(quantities: Sequence[Quantity], style: Style) -> bool:
     return len(kinds) == 1 and len(quantities[0].label(style.language)) <= _LONG
 
 
+def _meant(quantity: Quantity, style: Style) -> str:
+    """Return what the symbol of a quantity means, whose name is too long for an axis."""
+    return f"{math_symbol(quantity.symbol(style.language))} – {plain(quantity.label(style.language))}"
+
+
 def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style) -> list[Row]:
     """Return the names of the curves of a panel: symbols, and what the title of its axis does not say."""
     rows, is_on_axis = [], _is_on_axis(quantities, style)
-    if is_on_axis and len(quantities) == 1:
+    if len(quantities) == 1:
         return []
     for order, together in enumerate(_together(values)):
         signs = dict.fromkeys(math_symbol(quantities[index].symbol(style.language)) for index in together)
