@@ -96,11 +96,13 @@ _SAMPLES = 201
 
 
 def force_laws(results: Results) -> dict[str, tuple[Array, Array]]:
-    """Return the forces that are stated over the stroke of a piece, over its displacement, by its name. [m], [N]"""
+    """Return the forces that vary with the stroke of a piece, over its displacement, by its name. [m], [N]"""
     laws = {}
     for load in results.machine.loads if results.machine.linkage is not None else ():
         if isinstance(load, ProcessForce) and load.against == "stroke" and isinstance(load.force, LoadCurve):
             strokes, forces = np.array(load.force.at), np.array(load.force.values)
+            if not np.ptp(forces):
+                continue
             if load.force.interpolation != "linear":
                 strokes = np.linspace(strokes[0], strokes[-1], _SAMPLES)
                 forces = load.force(strokes)

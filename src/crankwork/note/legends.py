@@ -14,7 +14,7 @@ from crankwork.note.document import Block, Equation, Table
 from crankwork.note.equations import equation_symbol, own_key, value_symbol
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.key import key_of
-from crankwork.report.display import label
+from crankwork.report.display import key_unit, label
 
 # parts of a quantity that are no cylinder or point, and arguments made of a quantity
 _PARTS = {"inertia": "note.of_inertia", "drive": "note.of_drive", "of_cylinder": "report.of_cylinder"}
@@ -77,7 +77,9 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
         left = "" if isinstance(step, Formula) else key_of(step.key).quantity
         if left in QUANTITIES and left not in known:
             own = block.symbol or equation_symbol(step, language)
-            collected[Meaning(own, label(left, language))] = None
+            unit = printed_unit(key_unit(left, per_area=bool(block.area)), language)
+            after = f", {unit}" if unit else ""
+            collected[Meaning(own, label(left, language).removesuffix(after) + after)] = None
             known.add(left)
         if isinstance(step, FormulaLine | Formula):
             collected |= dict.fromkeys(legend(step, language, frozenset(known)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -245,16 +245,17 @@ def _of_kinds(*kinds: str) -> Callable[[Drawn], list[Sequence[str]]]:
     """Return what gives panels of the columns of each kind, a few in each."""
 
     def panels(machine: Drawn) -> list[Sequence[str]]:
-        columns, chosen = machine.reached.columns, list[Sequence[str]]()
-        for kind in kinds:
-            keys = _named(columns, kind)
-            groups = _together([columns[key] for key in keys])
-            # curves that coincide are drawn once
-            fours = (groups[start : start + _PER_PANEL] for start in range(0, len(groups), _PER_PANEL))
-            chosen += [[keys[index] for group in four for index in group] for four in fours]
-        return chosen
+        columns = machine.reached.columns
+        return [keys for kind in kinds for keys in _few_curves(_named(columns, kind), columns)]
 
     return panels
+
+
+def _few_curves(keys: Sequence[str], columns: Mapping[str, Array]) -> Iterator[Sequence[str]]:
+    """Yield a few keys at a time; curves that coincide, and are drawn once, count as one."""
+    groups = _together([columns[key] for key in keys])
+    for start in range(0, len(groups), _PER_PANEL):
+        yield [keys[index] for group in groups[start : start + _PER_PANEL] for index in group]
 
 
 def _by_fours(keys: Sequence[str]) -> list[Sequence[str]]:
@@ -338,7 +339,7 @@ def _joint_forces(machine: Drawn) -> list[Sequence[str]]:
     """Return magnitudes in pins, and apart from them forces of guides, which have a sign."""
     columns = machine.reached.columns
     kinds = (any_nonzero(_named(columns, kind), columns) for kind in ("joint_force", "normal_force"))
-    return [panel for keys in kinds for panel in _by_fours(keys)]
+    return [panel for keys in kinds for panel in _few_curves(keys, columns)]
 
 
 _IN_TIME = (("crank_angle",), ("crank_speed",), ("kinetic_energy", "potential_energy"), ("driving_torque",))
