@@ -86,7 +86,10 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
             known |= explained_keys(step)
     named = {meaning.symbol for meaning in collected if not meaning.is_derived}
     shown = (meaning for meaning in collected if not (meaning.is_derived and meaning.symbol in named))
-    return sorted(shown, key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
+    # once, with its unit where one of several places states it
+    longest = sorted(shown, key=lambda meaning: len(meaning.text))
+    once = {(meaning.symbol, meaning.text.partition(", ")[0]): meaning for meaning in longest}
+    return sorted(once.values(), key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
 
 
 def _unit(name: str, key: str) -> str:

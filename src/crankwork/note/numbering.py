@@ -33,7 +33,7 @@ from crankwork.note.document import (
 from crankwork.quantities import Language
 from crankwork.sources import school_source, source_language, sources
 
-# of a page: height of its text, what may stay empty within a section, before the next, and where text would fill it [pt]
+# of a page: height of its text, what may stay empty in a section, before the next, and where text would fill it [pt]
 PAGE, _LITTLE, _MUCH, _EMPTY = 728.0, 60.0, 240.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
@@ -194,7 +194,11 @@ def flow(
             ready = [] if inside else [*_ready(waiting, blocks)]
             # what has room on the page stands before what would leave the rest of it empty
             ready.sort(key=lambda place: bool(_left(filled, heights[place]).max()))
-            place = next((place for place in ready if _left(filled, heights[place]).max() <= most), None)
+            free = PAGE - float(filled.max()) if smaller is not None and most > _LITTLE else 0.0
+            place = next(
+                (place for place in ready if _left(filled, heights[place]).max() <= most
+                 or _share_of_size(blocks[place], heights[place], free) < 1.0), None,
+            )  # fmt: skip
             if place is None and (waited <= _LONG or _left(filled, heights[waiting[0]]).mean() > _EMPTY):
                 break
             place = waiting[0] if place is None else place

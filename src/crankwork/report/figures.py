@@ -649,8 +649,10 @@ def curves(
     for quantities, values in zip(sets, shown, strict=True):
         box = ChartBox(current_layout().left, top, current_layout().inner, high)
         name_at_the_end(paper, _rows(quantities, values, style), box)
-        is_place = key_of(quantities[0].key).quantity in _PLACES
-        ends = limits(*values, is_place=is_place)
+        kind = key_of(quantities[0].key).quantity
+        # panels of one quantity have one scale
+        of_kind = [shown[k] for k, panel in enumerate(sets) if key_of(panel[0].key).quantity == kind]
+        ends = limits(*itertools.chain(*of_kind), is_place=kind in _PLACES)
         graph = drive_graph(paper, box, abscissas, ends, style, is_last=quantities is sets[-1])
         _draw(graph, abscissas, quantities, values)
         graph.y_title(_title(quantities, style))
