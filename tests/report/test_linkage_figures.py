@@ -101,8 +101,8 @@ def test_a_force_is_drawn_as_far_as_its_piece_goes_and_not_at_all_where_it_is_co
     results = analyse(read_machine(template("crank-shaper").replace('force = ["1.2 kN"]', along)))
     ((x, y),) = drawings(results, only=["process_force"])["process_force"].plots[0].curves.values()
     assert np.ptp(x) == pytest.approx(200.0, rel=2e-3)
-    # 1 N for every millimetre
-    assert np.ptp(y) == pytest.approx(np.ptp(x), rel=1e-9)
+    # 1 kN for every metre
+    assert 1e3 * np.ptp(y) == pytest.approx(np.ptp(x), rel=1e-9)
 
 
 def test_curves_that_fall_together_are_one_line_with_both_names():

@@ -664,7 +664,7 @@ def curves(
     remarks = [
         translate("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
-        *(_meant(*panel, style) for panel in sets if len(panel) == 1 and not _is_on_axis(panel, style)),
+        *(_meant(panel[0], style) for panel in sets if len(panel) == 1 and not _is_on_axis(panel, style)),
         remark,
         *key_of_links(known, known, style.language),
     ]
