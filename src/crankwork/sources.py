@@ -25,6 +25,8 @@ _SCHOOLS: Mapping[str, Mapping[str, str]] = MappingProxyType({
         "kolchin_demidov_2008, ch. 6": "norton_2012, ch. 13",
         "kolchin_demidov_2008, ch. 7": "norton_2012, ch. 13",
         "lukanin_shatrov_2007, ch. 1": "norton_2012, ch. 13",
+        **{f"artobolevsky_1988, ch. {chapter}": f"norton_2012, ch. {own}"
+           for chapter, own in ((2, 2), (4, 4), (12, 10), (13, 11), (15, 10))},
         **dict.fromkeys(_MOTION, "norton_2012, ch. 13"),
         **dict.fromkeys(("whole_inertia", "flywheel_inertia", "wittenbauer_slope"), "norton_2012, ch. 11"),
     },

@@ -128,7 +128,11 @@ def flat(one: Note, text: str) -> set[str]:
         runs += [cell for row in table.rows for cell in row[:2]]
         for run in runs:
             if isinstance(run, str) and not UNIT.match(run):
-                found |= {word for word in re.split(r"[\s,;()=]+", run) if word in known and word not in text}
+                found |= {
+                    word
+                    for word in re.split(r"[\s,;()=]+", re.sub(r", \S+$", "", run))
+                    if word in known and word not in text
+                }
     return found - FLAT
 
 
@@ -168,7 +172,7 @@ def test_a_symbol_without_explanation_is_found():
 @for_each(
     ("name", "language", "letter", "both"),
     [
-        ("petrol-four", "ru", "S", {"ход поршня"}),
+        ("petrol-four", "ru", "S", {"ход поршня, мм"}),
         ("petrol-four", "vi", "α", {"góc quay trục khuỷu"}),
         ("petrol-four", "vi", "β", {"góc lắc thanh truyền"}),
         ("double-acting-steam", "en", "n", {"moving links", "rotational speed, rpm"}),

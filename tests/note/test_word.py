@@ -10,9 +10,11 @@ import zipfile
 import docx
 import pytest
 
-from crankwork.note.document import Equation, Heading, Math, Note, PageBreak, Table
+from crankwork.note.document import Equation, Heading, Math, Note, PageBreak, Strong, Table
 from crankwork.note.equations import printed_equation
+from crankwork.note.numbering import numbering
 from crankwork.note.word import word
+from crankwork.note.word_parts import table_columns
 from crankwork.quantities import LANGUAGES
 from crankwork.show.svg import svg
 from each import for_each
@@ -79,6 +81,31 @@ def test_tables_contents_and_figures_are_those_of_word(written, hostile, drawing
     with zipfile.ZipFile(io.BytesIO(written("ru"))) as members:
         assert {"word/media/drawing1.svg", "word/media/image1.png"} <= set(members.namelist())
         assert {entry.date_time for entry in members.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_a_table_with_too_many_columns_goes_on_in_another_in_letters_of_nine_points_at_least():
+    headings = (("Pos.",), ("φ",), *(((Math(f"v_{k}"), ", m/s")) for k in range(12)))
+    rows = [[f"{k}", f"{30 * k}", *(f"−0.{k:02}{n:02}" for n in range(12))] for k in range(13)]
+    note = Note(
+        "t", "en", (Table("Velocities", headings, rows, align="cc" + 12 * "r"), Table("Last", (("x",),), [["1"]]))
+    )
+    body = _opened(note).element.body
+    parts = [[[_words(cell) for cell in row.iter(f"{WORD}tc")] for row in table.iter(f"{WORD}tr")]
+             for table in body.iter(f"{WORD}tbl")][:2]  # fmt: skip
+    for row, *halves in zip(rows, *(part[1:] for part in parts), strict=True):
+        assert all(half[:2] == row[:2] for half in halves)
+        assert [cell for half in halves for cell in half[2:]] == row[2:]
+    captions = [_words(one) for one in body.iter(f"{WORD}p") if "Table" in _words(one)]
+    assert captions == ["Table 1. Velocities", "Table 1 (continued)", "Table 2. Last"]
+    sizes = [int(one.get(f"{WORD}val")) for one in body.iter(f"{WORD}sz") if one.getparent().tag == f"{WORD}rPr"]
+    assert min(sizes) >= 18
+
+
+def test_a_row_in_bold_has_room_in_its_column():
+    """Letters in bold are a tenth wider; where a row has its height, what does not fit in a line is not seen."""
+    widths = [table_columns(Table("t", (("j",),), [[kind("−1361.7364")]]), numbering(Note("t", "en", ()))).widths[0]
+              for kind in (str, Strong)]  # fmt: skip
+    assert widths[1] > 1.07 * widths[0]
 
 
 def test_a_symbol_in_a_cell_is_an_equation():

@@ -76,10 +76,33 @@ def test_a_name_with_dollars_keeps_its_letters_in_legends_and_titles():
 
 def test_both_sides_of_a_jump_of_a_load_are_drawn():
     """The load of a press ends at a dead position, where the joint force has a jump and no slope."""
-    one = figures_of("template press")["joint_forces"]
-    x, y = one.plots[1].curves["joint_force.D"]
+    curves_of = {
+        key: curve for plot in figures_of("template press")["joint_forces"].plots for key, curve in plot.curves.items()
+    }
+    x, y = curves_of["joint_force.D"]
     near = int(np.argmax(np.abs(np.diff(y))))
     assert np.diff(x)[near] == pytest.approx(1e-6, rel=1e-3)
+
+
+def test_equal_chambers_are_one_loop_and_equal_joint_forces_stand_in_one_panel():
+    drawn = figures_of("triplex-pump")
+    loops = {one.name for one in drawn["indicator"].items if isinstance(one, Polyline)} & {"one", "two", "three"}
+    assert loops == {"one"}
+    assert drawn["indicator"].plots[0].curves.keys() == {"one", "two", "three"}
+    of_pins, of_guides = (plot.curves.keys() for plot in drawn["joint_forces"].plots)
+    assert of_pins == {f"joint_force.{name}" for name in ("O", "A1", "A2", "A3", "B1", "B2", "B3")}
+    assert len(of_guides) == 3
+
+
+def test_a_force_is_drawn_as_far_as_its_piece_goes_and_not_at_all_where_it_is_constant():
+    """The template of a shaper states one force, which holds from -1 km to 1 km."""
+    assert "process_force" not in figures_of("template crank-shaper")
+    along = 'at = ["-9 m", "9 m"]\nforce = ["0 kN", "18 kN"]'
+    results = analyse(read_machine(template("crank-shaper").replace('force = ["1.2 kN"]', along)))
+    ((x, y),) = drawings(results, only=["process_force"])["process_force"].plots[0].curves.values()
+    assert np.ptp(x) == pytest.approx(200.0, rel=2e-3)
+    # 1 kN for every metre
+    assert 1e3 * np.ptp(y) == pytest.approx(np.ptp(x), rel=1e-9)
 
 
 def test_curves_that_fall_together_are_one_line_with_both_names():

@@ -96,15 +96,23 @@ _SAMPLES = 201
 
 
 def force_laws(results: Results) -> dict[str, tuple[Array, Array]]:
-    """Return the forces that are stated over the stroke of a piece, over its displacement, by its name. [m], [N]"""
+    """Return the forces that vary with the stroke of a piece, over its displacement, by its name. [m], [N]"""
     laws = {}
     for load in results.machine.loads if results.machine.linkage is not None else ():
         if isinstance(load, ProcessForce) and load.against == "stroke" and isinstance(load.force, LoadCurve):
             strokes, forces = np.array(load.force.at), np.array(load.force.values)
+            if not np.ptp(forces):
+                continue
             if load.force.interpolation != "linear":
                 strokes = np.linspace(strokes[0], strokes[-1], _SAMPLES)
                 forces = load.force(strokes)
-            laws[load.slider] = load.start + load.forward * strokes, forces
+            places = load.start + load.forward * strokes
+            # as far as the piece goes
+            travel = results.columns.get(f"slider_displacement.{load.slider}", places)
+            inside = np.clip(places, np.min(travel), np.max(travel))
+            order = np.argsort(places)
+            reached = np.where(inside == places, forces, np.interp(inside, places[order], forces[order]))
+            laws[load.slider] = inside, reached
     return laws
 
 

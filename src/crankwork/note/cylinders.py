@@ -207,6 +207,9 @@ def _orders(material: Material) -> Iterator[Block]:
     """Yield the table of the free forces of each order."""
     words, summary = material.words, material.summary
     orders = named(summary, "free_force")
+    if not any(summary[key] for key in named(summary, "free_force", "shaking_moment_amplitude")):
+        yield words.paragraph("no_free_forces", count=key_of(orders[-1]).owner)
+        return
     yield words.paragraph("free_forces", table=Reference("t:orders"))
     kinds = [kind for kind in ("free_force", "shaking_moment_amplitude") if named(summary, kind)]
     sizes = [

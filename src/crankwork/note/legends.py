@@ -14,7 +14,7 @@ from crankwork.note.document import Block, Equation, Table
 from crankwork.note.equations import equation_symbol, own_key, value_symbol
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.key import key_of
-from crankwork.report.display import label
+from crankwork.report.display import key_unit, label
 
 # parts of a quantity that are no cylinder or point, and arguments made of a quantity
 _PARTS = {"inertia": "note.of_inertia", "drive": "note.of_drive", "of_cylinder": "report.of_cylinder"}
@@ -77,14 +77,19 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
         left = "" if isinstance(step, Formula) else key_of(step.key).quantity
         if left in QUANTITIES and left not in known:
             own = block.symbol or equation_symbol(step, language)
-            collected[Meaning(own, label(left, language))] = None
+            unit = printed_unit(key_unit(left, per_area=bool(block.area)), language)
+            after = f", {unit}" if unit else ""
+            collected[Meaning(own, label(left, language).removesuffix(after) + after)] = None
             known.add(left)
         if isinstance(step, FormulaLine | Formula):
             collected |= dict.fromkeys(legend(step, language, frozenset(known)))
             known |= explained_keys(step)
     named = {meaning.symbol for meaning in collected if not meaning.is_derived}
     shown = (meaning for meaning in collected if not (meaning.is_derived and meaning.symbol in named))
-    return sorted(shown, key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
+    # once, with its unit where one of several places states it
+    longest = sorted(shown, key=lambda meaning: len(meaning.text))
+    once = {(meaning.symbol, meaning.text.partition(", ")[0]): meaning for meaning in longest}
+    return sorted(once.values(), key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
 
 
 def _unit(name: str, key: str) -> str:

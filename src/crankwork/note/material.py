@@ -91,10 +91,10 @@ _MAIN_FIGURES = frozenset((
     "acceleration_plan", "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison",
     "turning_moment", "driver", "chambers", "speed", "sliders", "balance_polygons", "unbalanced", "stage_indicator",
     "rod_loads", "torsional_modes", "campbell", "torsional_response", "pump_flow", "log_indicator",
-    "combustion", "recorded_cycles",
+    "combustion", "recorded_cycles", "zhukovsky_lever",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
-              "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
+              "ru": frozenset(("indicator", "crankpin_load"))}  # fmt: skip
 # figures of a piston that are read at half the width of the text; charts of notes, lower than elsewhere, and these
 _SMALL = frozenset((
     "indicator", "pressure", "kinematics", "tolle", "piston_forces", "rod_forces", "crankpin_forces", "torque",

@@ -33,8 +33,8 @@ from crankwork.note.document import (
 from crankwork.quantities import Language
 from crankwork.sources import school_source, source_language, sources
 
-# of a page: height of its text, what may stay empty within a section, and where text would fill it [pt]
-PAGE, _LITTLE, _EMPTY = 728.0, 60.0, 180.0
+# of a page: height of its text, what may stay empty in a section, before the next, and where text would fill it [pt]
+PAGE, _LITTLE, _MUCH, _EMPTY = 728.0, 60.0, 240.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
 # height of the caption of a figure [pt], by what share its height may be wrong, what share of its size it keeps
@@ -186,13 +186,19 @@ def flow(
         waiting += [k] if may_wait else []
         covers = isinstance(block, TitlePage) and not block.is_plain
         is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
-        most = PAGE if is_new or (isinstance(block, Heading) and block.level == 1) else _LITTLE
+        most = PAGE if is_new else _MUCH if isinstance(block, Heading) and block.level == 1 else _LITTLE
         # what waits does not stand between a heading and its text
         while waiting and (not is_heading or waiting == [k]):
             # no derivation is divided by what it does not need
             inside = k and isinstance(block, Equation) and isinstance(blocks[k - 1], Equation)
-            ready = () if inside else _ready(waiting, blocks)
-            place = next((place for place in ready if _left(filled, heights[place]).max() <= most), None)
+            ready = [] if inside else [*_ready(waiting, blocks)]
+            # what has room on the page stands before what would leave the rest of it empty
+            ready.sort(key=lambda place: bool(_left(filled, heights[place]).max()))
+            free = PAGE - float(filled.max()) if smaller is not None and most > _LITTLE else 0.0
+            place = next(
+                (place for place in ready if _left(filled, heights[place]).max() <= most
+                 or _share_of_size(blocks[place], heights[place], free) < 1.0), None,
+            )  # fmt: skip
             if place is None and (waited <= _LONG or _left(filled, heights[waiting[0]]).mean() > _EMPTY):
                 break
             place = waiting[0] if place is None else place

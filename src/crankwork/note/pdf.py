@@ -79,6 +79,8 @@ _TEXT_WIDTH = 170.0
 _TURNED, _TURNED_END = "#page(flipped: true)[\n", "\n]"
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
+# a unit with a dot or a slash, and what is written against it
+_COMPOSED = re.compile(r"((?<!\S)[^\W\d][^\s/·]{0,3}[/·][^\W\d]\S{0,8}(?!\S))")
 # letters of an entry that has room for its words whatever stands beside it
 _SHORT = 12
 # columns of a table whose parts stand side by side
@@ -196,9 +198,10 @@ def _runs(runs: Runs, numbers: Numbering) -> str:
 def _run(run: Run, numbers: Numbering) -> str:
     if isinstance(run, Math):
         return _inline(run.content, numbers.language)
-    # no line begins with a dash
-    words = typst_string(numbers.words(run).replace(" – ", "\u00a0– "))
-    return f"#strong({words});" if isinstance(run, Bold) else f"#{words};"
+    # no line begins with a dash, and a composed unit is neither divided nor stretched
+    parts = map(typst_string, _COMPOSED.split(numbers.words(run).replace(" – ", "\u00a0– ")))
+    words = "".join(f"#box({part});" if k % 2 else f"#{part};" for k, part in enumerate(parts))
+    return f"#strong[{words}]" if isinstance(run, Bold) else words
 
 
 def _inline(content: str | Expression | FormulaLine, language: Language) -> str:

@@ -133,9 +133,6 @@ def _of_hammer(material: Material) -> Paragraph | None:
     return words.paragraph("reads_hammer", **values) if len(values) > 1 else None
 
 
-_OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
-    "joint_forces": _of_joints, "unbalanced": _of_rotor, "hammer_blow": _of_hammer,
-}  # fmt: skip
 # amplitudes of what swings at the speed of a shaft
 _SWINGING = {
     "along": ("tractive_effort_variation", "free_force.along"), "across": ("free_force.across",),
@@ -250,6 +247,11 @@ def _of_output(material: Material) -> Paragraph | None:
             values[f"{noun}_angle"] = words.amount(summary[f"{end}_{over}.{name}"], unit, digits=4)
         return words.paragraph("reads_slider" if kind == "slider" else "reads_rocker", **values)
     return None
+
+
+_OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
+    "joint_forces": _of_joints, "sliders": _of_output, "unbalanced": _of_rotor, "hammer_blow": _of_hammer,
+}  # fmt: skip
 
 
 def _of_mains(material: Material) -> Paragraph | None:

@@ -15,8 +15,8 @@ PAGE, HALF_PAGE, WIDE_PAGE, _SIDES = 480.0, 231.0, 725.0, 8.0
 _FEW, _MANY = 20, 5
 # of letters of tables [pt]
 SIZES = (10.0, 9.0, 8.0)
-# of a digit, a letter of a word and a space [em]
-_DIGIT, _LETTER, _SPACE = 0.5, 0.52, 0.3
+# of a digit, a letter of a word, a space, and what a capital of a symbol is wider than its other letters [em]
+_DIGIT, _LETTER, _SPACE, _CAPITAL = 0.5, 0.52, 0.3, 0.2
 
 
 def room(table: Table) -> float:
@@ -73,7 +73,8 @@ def _parts(runs: Runs) -> list[float]:
     parts = [0.0]
     for run in runs:
         if isinstance(run, Math):
-            parts[-1] += width(symbol_box(run.content)) if isinstance(run.content, str) else 0.0
+            content = run.content if isinstance(run.content, str) else ""
+            parts[-1] += width(symbol_box(content)) + _CAPITAL * sum(map(str.isupper, content)) if content else 0.0
         elif isinstance(run, str):
             first, *further = (max(_LETTER * len(word), text_width(word, CAP_HEIGHT)) for word in run.split(" "))
             parts[-1] += first

@@ -11,6 +11,7 @@ import math
 import zipfile
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from crankwork.errors import MissingExtraError
@@ -49,6 +50,7 @@ from crankwork.note.word_parts import (
     heading_xml,
     pair_xml,
     paragraph,
+    readable,
     runs_xml,
     table_columns,
     table_xml,
@@ -124,6 +126,7 @@ def word(note: Note) -> bytes:
         import docx  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError(ErrorMessage("extra_writing", names="DOCX"), "report") from None
+    note = replace(note, blocks=tuple(readable(note.blocks, numbering(note))))
     numbers = numbering(note)
     document = docx.Document()
     _set_properties(document, note)

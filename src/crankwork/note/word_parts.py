@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from crankwork.formula.calculation_lines import FormulaLine
@@ -10,6 +11,7 @@ from crankwork.formula.expression import Expression
 from crankwork.locale import translate
 from crankwork.note.captions import caption
 from crankwork.note.document import (
+    Block,
     Bold,
     Cell,
     Equation,
@@ -23,6 +25,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
     cell_length,
+    side_by_side,
     xml_text,
 )
 from crankwork.note.equations import formula_of
@@ -56,11 +59,11 @@ PREFIXES = (
 _NARROWEST, _SIDES = 640, 140
 # how wide a digit and a letter are for every half point of their size, and an em of mathematics, in a wide font: what
 # stands in for Times New Roman elsewhere is no wider [twip]
-_DIGIT, _LETTER, _EM = 6.6, 7.4, 240
+_DIGIT, _BOLD, _LETTER, _EM = 6.6, 7.2, 7.4, 12
 # of a line of an equation in Cambria Math, whose digits are wider than those of the PDF [em]
 EQUATION_WIDTH = 26.0
 # of the text of tables, tried in turn [half pt]
-_SIZES = (20, 18, 16, 14)
+_SIZES = (20, 18)
 # height of a row of one line, for every half point [pt]
 _ROW_HEIGHT = 0.6
 # of source and number, at least; of a letter of them [twip]
@@ -84,7 +87,8 @@ def runs_xml(runs: Runs, numbers: Numbering, properties: str = "") -> str:
 
 def _run(run: Run, numbers: Numbering, properties: str) -> str:
     if isinstance(run, Math):
-        return f"<m:oMath>{omml_box(inline_box(run.content, numbers.language))}</m:oMath>"
+        boxes = omml_box(inline_box(run.content, numbers.language)).replace("</w:rPr>", f"{properties}</w:rPr>")
+        return f"<m:oMath>{boxes}</m:oMath>"
     return text_run(numbers.words(run), "<w:b/>" + properties if isinstance(run, Bold | Strong) else properties)
 
 
@@ -134,7 +138,7 @@ def pair_xml(left: Iterable[str], right: Iterable[str]) -> Iterator[str]:
 
 def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -> Iterator[str]:
     """Yield the caption of a table, the table with a header on every page, and a gap after it."""
-    size, widths, row_height = columns
+    size, widths, row_height, _ = columns
     # a short table stays on one page
     together = len(block.rows) - 1 if is_whole(block) else _TOGETHER
     font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
@@ -178,12 +182,55 @@ def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0"/>')
 
 
+def readable(blocks: Sequence[Block], numbers: Numbering) -> Iterator[Block]:
+    """Yield blocks, a table with too many columns for letters of a size that is read as several.
+
+    One that is too wide for half a page stands below what would stand beside it.
+    """
+    for places in side_by_side(blocks):
+        row = [blocks[place] for place in places]
+        wide = [block for block in row if isinstance(block, Table) and not table_columns(block, numbers).fits]
+        if not wide:
+            yield from row
+        elif len(row) > 1:
+            yield from readable(
+                [replace(part, half=False) for part in row if isinstance(part, Figure | Table)], numbers
+            )
+        else:
+            yield from _divided(wide[0], numbers)
+
+
+def _divided(table: Table, numbers: Numbering) -> Iterator[Block]:
+    """Yield a table with the parts below each other that stand side by side, or with some of its columns in another."""
+    count, align = len(table.headings), table.align or "r" * len(table.headings)
+    for parts in (3, 2):
+        wide = count // parts
+        if table.headings == parts * table.headings[:wide]:
+            pieces = [row[k : k + wide] for k in range(0, count, wide) for row in table.rows]
+            rows = [piece for piece in pieces if any(piece)]
+            yield replace(table, headings=table.headings[:wide], rows=rows, align=align[:wide])
+            return
+    first = max(1, len(align) - len(align.lstrip("c")))
+    half = (count + first + 1) // 2
+    if not first < half < count:
+        yield table
+        return
+    for places in ((*range(half),), (*range(first), *range(half, count))):
+        part = replace(table, headings=tuple(table.headings[place] for place in places),
+                       rows=[tuple(row[place] for place in places) for row in table.rows],
+                       align="".join(align[place] for place in places))  # fmt: skip
+        if places[-1] == count - 1:
+            part = replace(part, caption="", label="")
+        yield from readable([part], numbers)
+
+
 class Columns(NamedTuple):
     """Size of the text of a table [half pt], widths of its columns [twip], height of a row [pt], 0 if they differ."""
 
     size: int
     widths: list[int]
     row_height: float
+    fits: bool = True  # Whether no word of it is divided
 
 
 def table_columns(block: Table, numbers: Numbering) -> Columns:
@@ -194,10 +241,8 @@ def table_columns(block: Table, numbers: Numbering) -> Columns:
     full = WIDE_TEXT_WIDTH if block.wide else HALF_TEXT_WIDTH if block.half else TEXT_WIDTH
     columns = list(zip(*block.rows, strict=True)) or [()] * len(block.headings)
     words = [max(map(_word_width, column), default=0.0) for column in columns]
-    entries = [
-        max(_DIGIT * max(map(cell_length, column), default=0), word)
-        for column, word in zip(columns, words, strict=True)
-    ]
+    entries = [max(*map(_entry_width, column), word) if column else 0.0
+               for column, word in zip(columns, words, strict=True)]  # fmt: skip
     size, least = _SIZES[0], [0]
     for size in _SIZES:
         headings = [_heading_width(runs, numbers, size) for runs in block.headings]
@@ -208,7 +253,7 @@ def table_columns(block: Table, numbers: Numbering) -> Columns:
         if sum(least) <= full:
             break
     else:
-        return Columns(size, [part * full // sum(least) for part in least], 0.0)
+        return Columns(size, [part * full // sum(least) for part in least], 0.0, fits=False)
     wanted = [max(part, round(size * entry) + _SIDES) for part, entry in zip(least, entries, strict=True)]
     excess = sum(wanted) - sum(least)
     share = min(1.0, (full - sum(least)) / excess) if excess else 1.0
@@ -219,9 +264,13 @@ def table_columns(block: Table, numbers: Numbering) -> Columns:
 
 def _word_width(cell: Cell) -> float:
     """Return the width of the longest word of a cell, or of its symbol, for every half point of its size. [twip]"""
-    if isinstance(cell, Math):
-        return _DIGIT * cell_length(cell)
+    if isinstance(cell, Math | Strong):
+        return _entry_width(cell)
     return max((_letters_width(word) for word in cell.split()), default=0.0)
+
+
+def _entry_width(cell: Cell) -> float:
+    return (_BOLD if isinstance(cell, Strong) else _DIGIT) * cell_length(cell)
 
 
 def _letters_width(word: str) -> float:
@@ -233,7 +282,7 @@ def _heading_width(runs: Runs, numbers: Numbering, size: int) -> float:
     widths = [0.0]
     for run in runs:
         if isinstance(run, Math):
-            widths[-1] += _EM * box_width(inline_box(run.content, numbers.language))
+            widths[-1] += _EM * size * box_width(inline_box(run.content, numbers.language))
             continue
         first, *further = (size * _letters_width(word) for word in numbers.words(run).split(" "))
         widths[-1] += first

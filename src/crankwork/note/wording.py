@@ -79,7 +79,8 @@ class Words:
     def titled(self, key: str, unit: str | None = None) -> Runs:
         """Return the heading of a column: symbol and unit, that of the quantity if none is given."""
         shown = self.unit(key) if unit is None else printed_unit(unit, self.language)
-        return (Math(self.symbol(key)), f", {shown}") if shown else (Math(self.symbol(key)),)
+        between = "\u00a0" if shown in _TIGHT else " "
+        return (Math(self.symbol(key)), f",{between}{shown}") if shown else (Math(self.symbol(key)),)
 
     def term(self, key: str, unit: str = "") -> str:
         """Return a single word of a table as it stands in a cell or sentence."""
@@ -202,7 +203,11 @@ class Words:
     def reached_at(self) -> Runs:
         """Return the heading of a column of positions at which values are reached."""
         symbol, _, unit = self.place(0.0)
-        return (self.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, self.language)}")
+        return (
+            self.column("at") + "\u00a0",
+            symbol,
+            ",\u00a0°" if unit == "deg" else f", {printed_unit(unit, self.language)}",
+        )
 
 
 def named(columns: Mapping[str, object], *kinds: str) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -245,9 +245,17 @@ def _of_kinds(*kinds: str) -> Callable[[Drawn], list[Sequence[str]]]:
     """Return what gives panels of the columns of each kind, a few in each."""
 
     def panels(machine: Drawn) -> list[Sequence[str]]:
-        return [keys for kind in kinds for keys in _by_fours(_named(machine.reached.columns, kind))]
+        columns = machine.reached.columns
+        return [keys for kind in kinds for keys in _few_curves(_named(columns, kind), columns)]
 
     return panels
+
+
+def _few_curves(keys: Sequence[str], columns: Mapping[str, Array]) -> Iterator[Sequence[str]]:
+    """Yield a few keys at a time; curves that coincide, and are drawn once, count as one."""
+    groups = _together([columns[key] for key in keys])
+    for start in range(0, len(groups), _PER_PANEL):
+        yield [keys[index] for group in groups[start : start + _PER_PANEL] for index in group]
 
 
 def _by_fours(keys: Sequence[str]) -> list[Sequence[str]]:
@@ -331,7 +339,7 @@ def _joint_forces(machine: Drawn) -> list[Sequence[str]]:
     """Return magnitudes in pins, and apart from them forces of guides, which have a sign."""
     columns = machine.reached.columns
     kinds = (any_nonzero(_named(columns, kind), columns) for kind in ("joint_force", "normal_force"))
-    return [panel for keys in kinds for panel in _by_fours(keys)]
+    return [panel for keys in kinds for panel in _few_curves(keys, columns)]
 
 
 _IN_TIME = (("crank_angle",), ("crank_speed",), ("kinetic_energy", "potential_energy"), ("driving_torque",))
@@ -641,8 +649,10 @@ def curves(
     for quantities, values in zip(sets, shown, strict=True):
         box = ChartBox(current_layout().left, top, current_layout().inner, high)
         name_at_the_end(paper, _rows(quantities, values, style), box)
-        is_place = key_of(quantities[0].key).quantity in _PLACES
-        ends = limits(*values, is_place=is_place)
+        kind = key_of(quantities[0].key).quantity
+        # panels of one quantity have one scale
+        of_kind = [shown[k] for k, panel in enumerate(sets) if key_of(panel[0].key).quantity == kind]
+        ends = limits(*itertools.chain(*of_kind), is_place=kind in _PLACES)
         graph = drive_graph(paper, box, abscissas, ends, style, is_last=quantities is sets[-1])
         _draw(graph, abscissas, quantities, values)
         graph.y_title(_title(quantities, style))
@@ -654,6 +664,7 @@ def curves(
     remarks = [
         translate("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
+        *(_meant(panel[0], style) for panel in sets if len(panel) == 1 and not _is_on_axis(panel, style)),
         remark,
         *key_of_links(known, known, style.language),
     ]
@@ -711,10 +722,15 @@ def _is_on_axis(quantities: Sequence[Quantity], style: Style) -> bool:
     return len(kinds) == 1 and len(quantities[0].label(style.language)) <= _LONG
 
 
+def _meant(quantity: Quantity, style: Style) -> str:
+    """Return what the symbol of a quantity means, whose name is too long for an axis."""
+    return f"{math_symbol(quantity.symbol(style.language))} – {plain(quantity.label(style.language))}"
+
+
 def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style) -> list[Row]:
     """Return the names of the curves of a panel: symbols, and what the title of its axis does not say."""
     rows, is_on_axis = [], _is_on_axis(quantities, style)
-    if is_on_axis and len(quantities) == 1:
+    if len(quantities) == 1:
         return []
     for order, together in enumerate(_together(values)):
         signs = dict.fromkeys(math_symbol(quantities[index].symbol(style.language)) for index in together)

@@ -49,7 +49,7 @@ from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, 
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Drawing, Style
 
-_HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 34.0
+_HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 24.0
 # the tallest plan, and all of them together [pt]
 _HIGHEST, _WHOLE = 230.0, 560.0
 # a paper wider than this has two plans side by side [pt]

@@ -291,13 +291,19 @@ def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array |
         name: (displayed_values(volume, across), displayed_values(pressure, up), angles)
         for name, (across, up, angles) in curves.items()
     }
-    rows = [Row(name, STYLES[k % 4]) for k, name in enumerate(drawn)] if len(drawn) > 1 else []
+    equal = dict[tuple[float, ...], list[str]]()
+    for name, (across, up, _) in drawn.items():
+        sizes = (across.min(), across.max(), up.min(), up.max(), abs(np.trapezoid(up, across)))
+        equal.setdefault(tuple(round(float(size), 6) + 0.0 for size in sizes), []).append(name)
+    rows = [Row(", ".join(names), STYLES[k % 4]) for k, names in enumerate(equal.values())] if len(drawn) > 1 else []
     paper, box = sheet(259.0, rows)
     x, y = (limits(*values, margin=0.05) for values in list(zip(*drawn.values(), strict=True))[:2])
     graph = Graph(paper, box, x, y, style.language)
     graph.frame(round_ticks(*x), round_ticks(*y, 10))
-    for k, (name, (across, up, angles)) in enumerate(drawn.items()):
-        graph.curve(name, across, up, STYLES[k % 4], angles=angles)
+    for k, (first, *further) in enumerate(equal.values()):
+        across, up, angles = drawn[first]
+        graph.curves |= {name: drawn[name][:2] for name in further}
+        graph.curve(first, across, up, STYLES[k % 4], angles=angles)
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
     return paper.drawing(translate(f"figures.{title}", style.language), style.language)

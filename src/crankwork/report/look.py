@@ -403,7 +403,7 @@ def _with_corners(results: Results, degrees: Array) -> Array:
     )
     single = (results.trace[key].node for key in results.summary if key in results.trace)
     extremes = [node.at for node in single if isinstance(node, ProcedureValue) and node.at is not None]
-    breaks = np.concatenate([breaks, breaks + _AFTER, extremes])
+    breaks = np.concatenate([breaks - _AFTER, breaks, breaks + _AFTER, extremes])
     return np.union1d(degrees, breaks[(breaks >= degrees[0]) & (breaks <= degrees[-1])])
 
 
