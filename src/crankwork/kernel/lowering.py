@@ -609,7 +609,7 @@ class Lowering:
                 return self.graph.reduction(node.word, *map(self.value, node.operands))
             case "work":
                 pressure, volume = map(self.value, node.operands)
-                return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
+                return self.graph.reduction("integral", pressure * self._slope(volume, "table", node.operands[1].key))
         raise NotCompiledError("procedure", known.key or node.word)
 
     def _keep_sides(self, column: TracedValue, signs: KernelValue, shift: float) -> None:
@@ -628,11 +628,20 @@ class Lowering:
             return self._roots[where]
         if not isinstance(root, Root) or not root.residuals or root.operands:
             raise NotCompiledError("solved", key)
+        stated = np.abs(root.solve(self.angles_at(self._sample_angles)))
+        if len(stated) != len(root.residuals):
+            # positions of links with their derivatives, which no forces are
+            raise NotCompiledError("solved", key)
         unknowns = [self.graph.unknown(*where, index) for index in range(len(root.residuals))]
         # what follows from the places of unknowns is not kept
         self._roots[where], kept = unknowns, dict(self._values)
-        residuals = [self.value(residual, shift=shift, fixed=fixed) for residual in root.residuals]
-        self._values = kept
+        try:
+            residuals = [self.value(residual, shift=shift, fixed=fixed) for residual in root.residuals]
+        except NotCompiledError:
+            del self._roots[where]
+            raise
+        finally:
+            self._values = kept
         indices = [unknown.index for unknown in unknowns]
         steps, margin = self._newton_step(unknowns, residuals)
         values = [-start for start in replaced(residuals, dict.fromkeys(indices, self.graph.constant(0.0)))]
@@ -642,7 +651,7 @@ class Lowering:
         self._roots[where] = values
         open_yet, size = (functools.reduce(operator.add, (x * x for x in row)) for row in (last, values))
         # where all forces vanish rounding is left of them
-        least = (_SMALL * float(np.nanmax(np.abs(root.solve(self.angles_at(self._sample_angles)))))) ** 2
+        least = (_SMALL * float(np.nanmax(stated))) ** 2
         settled = self.graph.apply("choose", (size + least) * _SETTLED**2 - open_yet, determinant, -1.0)
         self._guards.append(settled if fixed is not None else self.graph.reduction("least", settled))
         for column, places in root.sides if self._is_exact and fixed is None else ():
@@ -708,16 +717,20 @@ class Lowering:
         """
         # a volume grows ever faster after a dead centre: from the far side steps do not overshoot
         near, start = angles[0], max(angles)
-        try:
-            slope = self._by_angle.of(self.value(column))
-        except (KeyError, TypeError):
-            raise NotCompiledError("ends", column.key) from None
+        slope = self._slope(self.value(column), "ends", column.key)
         step = angle = self.graph.constant(start)
         for _ in range(_STEPS):
             step = (self._at(column, angle, near) - target) / self.graph.at_angle(slope, angle, near) * (180 / math.pi)
             angle = angle - step
         self._guards.append(_CONVERGED**2 - step * step)
         return angle
+
+    def _slope(self, column: KernelValue, reason: Reason, key: str) -> KernelValue:
+        """Return the derivative of a column by the crank angle, which tables have not."""
+        try:
+            return self._by_angle.of(column)
+        except (KeyError, TypeError):
+            raise NotCompiledError(reason, key) from None
 
     def _largest_size(self, column: KernelValue) -> KernelValue:
         high, low = self.graph.reduction("max", column), self.graph.reduction("min", column)
