@@ -9,9 +9,9 @@ from __future__ import annotations
 import functools
 import math
 import operator
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,7 @@ from crankwork.kernel.graph import in_order as values_in_order
 from crankwork.kernel.schedule import replaced
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 # Tolerance of an input as a linear function of a field, relative to its size.
 _TOLERANCE = 1e-12
@@ -79,11 +80,24 @@ Reason = Literal[
 
 
 class NotCompiledError(CrankworkError):
-    """A calculation that cannot be compiled: the reason, and the key of a value that shows it."""
+    """A calculation that cannot be compiled: the reason, a key that shows it, and the `values` that cannot."""
 
-    def __init__(self, reason: Reason, key: str) -> None:
+    def __init__(self, reason: Reason, key: str, values: Collection[str] = ()) -> None:
         super().__init__(f"{reason}: {key}")
-        self.reason, self.key = reason, key
+        self.reason, self.key, self.values = reason, key, set(values)
+
+
+def compiled_values(compile_one: Callable[[str], T], keys: Iterable[str]) -> dict[str, T]:
+    """Return what is made of each key; raise the first error, with all keys of which nothing is made."""
+    results, errors = dict[str, T](), dict[str, NotCompiledError]()
+    for key in keys:
+        try:
+            results[key] = compile_one(key)
+        except NotCompiledError as error:
+            errors[key] = error
+    for first in errors.values():
+        raise NotCompiledError(first.reason, first.key, errors)
+    return results
 
 
 @dataclass(frozen=True)
@@ -110,8 +124,7 @@ class DesignTraces:
         self._general_forms: dict[int, TracedValue] = {}
         self.differs: dict[int, bool] = {}
         self.roots: list[Node] = []
-        for key in keys:
-            self.add(key)
+        compiled_values(self.add, keys)
 
     def add(self, key: str) -> None:
         """Compare the dependencies of a key; a difference of structure raises an error on each call."""

@@ -141,7 +141,7 @@ def gear_ratio_of_motor(w_s: Value, s_n: Value, w: Value) -> Value:
 
 
 def standard_power(needed: Any) -> Any:  # noqa: ANN401 - a number, or a traced value
-    """Return the least power of the standard series that is not below the needed one, infinity beyond the series. [W]"""
+    """Return the least power of the standard series that is not below the needed one, infinity beyond it. [W]"""
     size: Any = math.inf
     for power in reversed(_SERIES["powers"]):
         size = select(power * 1e3 * (1 + _ROUNDING) - needed, power * 1e3, size)
