@@ -2,11 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import crankwork
 from crankwork.shaft.motor import standard_power
 from machine_texts import SLIDER_CRANK, analysed
+from varied import Varied
 
 PRESS, COMPRESSOR = (crankwork.template(name) for name in ("press", "compressor"))
 # speeds without load at 50 and 60 Hz
@@ -22,8 +24,18 @@ def _ratios(results: crankwork.Results) -> dict[str, float]:
 def test_sizes_are_those_of_the_standard_series() -> None:
     # IEC 60072-1: the sizes that follow on powers in kW
     series = {0.01: 0.06, 0.37: 0.37, 0.38: 0.55, 2.3: 3.0, 3.2: 4.0, 4.1: 5.5, 15.1: 18.5, 91.0: 110.0, 201.0: 250.0}
-    assert {needed: (standard_power(needed * 1e3) or 0.0) / 1e3 for needed in series} == pytest.approx(series)
-    assert standard_power(1001e3) is None
+    assert {needed: standard_power(needed * 1e3) / 1e3 for needed in series} == pytest.approx(series)
+    assert standard_power(1001e3) == math.inf
+
+
+def test_sizes_of_many_designs_are_those_of_analyses() -> None:
+    study = Varied(PRESS, ("crank.speed",), 0.01)
+    designs = study.middle * np.geomspace(0.1, 3, 40)[None]
+    found = study.kernel(["standard_motor_power"])(designs).values[0]
+    assert len({*found.tolist()}) > 6
+    assert {index: study.results(designs[:, index]).summary["standard_motor_power"] for index in (0, 7, 20, 39)} == {
+        index: found[index] for index in (0, 7, 20, 39)
+    }
 
 
 @pytest.mark.elsewhere

@@ -40,6 +40,14 @@ def test_the_mean_of_a_size_that_nearly_vanishes_is_an_elliptic_integral(gap: fl
     assert found.extreme_points["size"][1].value == pytest.approx(gap, rel=1e-6, abs=1e-13)
 
 
+@for_each("start", [0.03, -0.03, 1e-4, 0.0])
+def test_a_sign_that_changes_just_beside_the_end_of_a_cycle_does_so_there(start: float) -> None:
+    ends, is_negative = over(load=ANGLE.shifted(-start).sin).sign_intervals("load")
+    expected = {0.03: [0.03, 180.03], 1e-4: [1e-4, 180 + 1e-4], -0.03: [179.97, 359.97], 0.0: [180.0]}[start]
+    assert ends == pytest.approx([*expected, 360.0], abs=1e-10)
+    assert is_negative == [start > 0, *[start <= 0, start > 0][: len(expected)]]
+
+
 def test_an_ellipse_is_nearest_and_farthest_at_its_axes() -> None:
     found = over(size=joint_force(3.0 * ANGLE.shifted(-33.0).cos, 0.5 * ANGLE.shifted(-33.0).sin))
     largest, least = found.extreme_points["size"]

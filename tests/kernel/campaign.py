@@ -1,7 +1,8 @@
 """Compares compiled calculations with analyses, for machine files and for machines drawn by chance.
 
 Some numbers of each machine are varied; every single value that compiles is compared at designs between those that
-were traced. `test_campaign.py` runs a few; `scripts/campaign kernels --count 1000` many.
+were traced. `test_campaign.py` runs a few; `scripts/campaign kernels --count 1000` many, `--rubbing` such with friction,
+and `--known` machine files of the repository with numbers drawn by chance.
 """
 
 from __future__ import annotations
@@ -14,37 +15,64 @@ import runpy
 import signal
 import sys
 import time
+import tomllib
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
+import crankwork
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description, NumericField, numeric_field
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.formula.cycle_interpolant import BEYOND
 from crankwork.formula.replay import replay
-from crankwork.formula.traced_value import Arithmetic, FormulaCall, ProcedureValue, Sum, TracedValue
+from crankwork.formula.traced_value import (
+    Arithmetic,
+    FormulaCall,
+    FunctionValue,
+    ProcedureValue,
+    Root,
+    Sum,
+    Tabulated,
+    TracedValue,
+    in_order,
+)
 from crankwork.kernel import compiled
 from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
 from crankwork.kinematics.crank_grid import CrankGrid
 
-plausible_file = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible.py"))["plausible_file"]
+_PLAUSIBLE = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible.py"))
+plausible_file, written = _PLAUSIBLE["plausible_file"], _PLAUSIBLE["written"]
+ROOT = Path(__file__).parents[2]
+# of all tables: torsion, stages, measured pressure, clutches, friction
+KNOWN = [
+    path
+    for folder in (
+        ROOT / "examples",
+        ROOT / "tests" / "machines",
+        Path(crankwork.__file__).parent / "description" / "templates",
+    )
+    for path in sorted(folder.glob("*.toml"))
+]
 # how many numbers are varied, by how much of what they are, and how many designs are compared
 FIELDS, PART, COMPARED = 2, 0.01, 3
 # how far another design is from the stated one, in each number more
 AWAY = 0.004
 # How far values, sums over the cycle and angles of extremes or their ratios may be apart: beside their size, in rad.
-LIMITS = {"value": 1e-12, "integral": 1e-10, "angle": 1e-7, "time": 1e-7}
+LIMITS = {"value": 1e-12, "integral": 1e-10, "angle": 1e-7, "time": 1e-7, "iterated": 1e-9}
 # how far a kernel may be from the designs that it was traced from, as in studies
 SAME, NEAR_ANGLE = 1e-9, 1e-5
 _INTEGRALS = ("flywheel", "excess", "energy", "rim", "whole_inertia", "work", "reduced_inertia_mean")
 _SECONDS = 120
 _NEAR_DEAD = 1e-6
+# how far the angles at which laws end are from those of a design [deg]
+_DECIMAL = 0.5e-9
 _STEP = 1e-5
 
 
@@ -86,8 +114,47 @@ def numbers(description: Description) -> Iterator[tuple[str, NumericField]]:
             found = numeric_field(values, key)
         except (CrankworkError, ValueError):
             continue
-        if found.now:
+        # between whole ratios a machine never returns to where it was, and has no harmonics
+        if found.now and not (key.startswith("geared.") and key.endswith(".ratio")):
             yield key, found
+
+
+def rubbing_text(seed: int, number: int) -> str:
+    """Return a machine drawn by chance, with friction in some of its pins and guides that may lock it."""
+    text = plausible_file(seed, number).text
+    draw = random.Random(f"rubbing {seed}:{number}")  # noqa: S311 - the same every time
+    try:
+        summary = analyse(Description(text).machine()).summary
+    except CrankworkError:
+        return str(text)
+    values = tomllib.loads(text)
+    pins = [key.partition(".")[2] for key in summary if key.startswith("joint_force_max.")]
+    sliders = ["piston"] if "rod" in values else list(values.get("sliders", {}))
+    size = next((value for key, value in summary.items() if key.startswith("crank_radius")), 0.1)
+    size = float(str(values.get("crank", {}).get("radius", f"{size * 1e3} mm")).split()[0])
+
+    def some(names: Sequence[str]) -> list[str]:
+        return draw.sample(names, min(len(names), draw.choice((1, 1, 2, 4))))
+
+    def coefficient() -> float:
+        return round(10 ** draw.uniform(-2.5, -0.3), 4)
+
+    rubbing: dict[str, dict[str, Any]] = {
+        "pins": {
+            name: {"coefficient": coefficient(), "radius": f"{draw.uniform(0.02, 0.3) * size:.6g} mm"}
+            | ({"moment": "0.2 N*m"} if draw.random() < 0.2 else {})
+            for name in some(pins)
+        },
+        "sliders": {
+            name: {"coefficient": coefficient()}
+            | ({"length": f"{draw.uniform(0.3, 3) * size:.6g} mm"} if draw.random() < 0.5 else {})
+            | ({"force": "15 N"} if draw.random() < 0.2 else {})
+            for name in some(sliders)
+        },
+    }
+    if draw.random() < 0.3:
+        rubbing["circle"] = "sine"  # type: ignore[assignment]
+    return str(written({**values, "friction": {key: one for key, one in rubbing.items() if one}}))
 
 
 class Machine:
@@ -232,6 +299,8 @@ def _worst(
             apart /= size
             if kind in ("angle", "time") and "ratio" not in key and not apart <= LIMITS[kind]:
                 apart = _missed(key, value, results)
+            if kind == "value" and not apart <= LIMITS[kind] and _is_iterated(results.trace[key]):
+                kind = "iterated"
             counted[kind] += 1
             if not apart <= worst.get(kind, (-1.0, ""))[0]:
                 worst[kind] = apart, f"{key}: {summary.get(key)!r} and {value!r}"
@@ -256,9 +325,13 @@ def _size_of(known: TracedValue, results: Results) -> float:
     node = known.node
     match node:
         case ProcedureValue(operands=operands) if any(one.varies for one in operands):
-            return math.prod(
-                float(np.max(np.abs(replay(one, results.grid) if one.varies else one.value))) for one in operands
-            )
+            sizes = [float(np.max(np.abs(replay(one, results.grid) if one.varies else one.value))) for one in operands]
+            # what a function finds has a unit of its own
+            return abs(known.value) if isinstance(node, FunctionValue) else math.prod(sizes)
+        case ProcedureValue(general_form=TracedValue() as formed):
+            return _size_of(formed, results)
+        case ProcedureValue(operands=operands):
+            return max([abs(known.value), *(_size_of(one, results) for one in operands)])
         case FormulaCall() | Arithmetic():
             function = node.formula.function if isinstance(node, FormulaCall) else node.function
             inputs = [one.value if isinstance(one, TracedValue) else one for one in node.inputs]
@@ -273,13 +346,21 @@ def _size_of(known: TracedValue, results: Results) -> float:
     return 0.0 if known.varies else abs(known.value)
 
 
+def _is_iterated(known: TracedValue) -> bool:
+    """Return whether a value follows from forces with friction or from a pressure calculated step by step."""
+    return any(isinstance(one.node, Root | Tabulated) for one in in_order([known]))
+
+
 def _behind_a_jump(known: TracedValue) -> float:
-    """Return by how much an extreme may change where an analysis stands behind the angle at which a law begins."""
+    """Return by how much an extreme may change where an analysis stands beside the angle at which a law begins."""
     node = known.node
     if not isinstance(node, ProcedureValue) or node.at is None or node.word not in ("max", "min"):
         return 0.0
-    one, other = replay(node.operands[0], CrankGrid.from_degrees([node.at, node.at + _STEP])).tolist()
-    return abs(other - one) / _STEP * 2 * BEYOND
+    before, there, behind = replay(
+        node.operands[0], CrankGrid.from_degrees([node.at - _STEP, node.at, node.at + _STEP])
+    ).tolist()
+    # it is behind an end, which has so many decimals
+    return (abs(behind - there) * 2 * BEYOND + max(abs(before - there), abs(behind - there)) * _DECIMAL) / _STEP
 
 
 def _kind(key: str) -> str:
@@ -310,6 +391,10 @@ def _missed(key: str, angle: float, results: Results) -> float:
     return abs(results.value(f"{end}{dot}{name}", place) - results.summary[extreme]) / _size(extreme, results.summary)
 
 
+def _plain_text(seed: int, number: int) -> str:
+    return str(plausible_file(seed, number).text)
+
+
 def told(*what: object) -> None:
     """Write a line, at once."""
     sys.stdout.write(" ".join(map(str, what)) + "\n")
@@ -328,28 +413,32 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--vary", type=lambda one: one.split(","), default=(), help="numbers by key, commas between")
+    parser.add_argument("--rubbing", action="store_true", help="with friction")
+    parser.add_argument("--known", action="store_true", help="machine files of the repository, their numbers by chance")
     parser.add_argument("--arrays", action="store_true", help="do not compile the loops")
     parser.add_argument("--reasons", action="store_true", help="print why values are not compiled")
     asked = parser.parse_args()
     if asked.arrays:
         compiled.compiles = lambda: False
     jobs: list[tuple[str, Callable[[], str]]] = [(one, Path(one).read_text) for one in asked.files]
-    jobs += [
-        (f"{asked.seed}:{at}", lambda at=at: plausible_file(asked.seed, at).text)  # type: ignore[misc]
-        for at in range(asked.first, asked.count)
-    ]
+    for at in range(asked.first, asked.count):
+        path = KNOWN[at % len(KNOWN)]
+        name = f"{asked.seed}:{at}" + f" {path.stem}" * asked.known
+        text = path.read_text if asked.known else partial(rubbing_text, asked.seed, at)
+        jobs.append((name, text if asked.known or asked.rubbing else partial(_plain_text, asked.seed, at)))
     counted, reasons, apart = collections.Counter[str](), collections.Counter[str](), 0
     worst = dict[str, tuple[float, str]]()
     warnings.simplefilter("ignore")
-    signal.signal(signal.SIGALRM, _late)
+    # of this process, whatever else the machine does
+    signal.signal(signal.SIGPROF, _late)
     began = time.monotonic()
     for name, text in jobs:
-        signal.alarm(_SECONDS)
+        signal.setitimer(signal.ITIMER_PROF, _SECONDS)
         try:
             found = compared(name, text(), asked.seed, asked.vary)
         except (Exception, TimeoutError) as error:  # noqa: BLE001 - counted and told
             found = Comparison(name, worst={"value": (np.inf, f"{type(error).__name__}: {error}")})
-        signal.alarm(0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
         counted["absent" if found.absent else "compiled" if found.compiled else "not compiled"] += 1
         counted.update({"keys": found.compiled, "other keys": len(found.reasons), "left out": found.left_out})
         counted.update({"near dead": found.near_dead, **found.values})

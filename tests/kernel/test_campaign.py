@@ -46,9 +46,11 @@ def test_machines_drawn_by_chance_are_compiled_to_what_analyses_give(machines):
 
 
 @few_and_more(
-    [(EXAMPLES / "beta-stirling.toml",), (EXAMPLES / "press-geometry.toml",)], [(EXAMPLES / "andrews-squeezer.toml",)]
+    [(EXAMPLES / "beta-stirling.toml",), (EXAMPLES / "press-geometry.toml",)],
+    [(EXAMPLES / "andrews-squeezer.toml",), (MACHINES / "gas-by-law.toml", "links.arm.length")],
 )
 def test_examples_are_compiled_to_what_analyses_give(machines):
+    """Among them gas whose work follows from a table over time, which has no slope (gas by law)."""
     assert apart(machines, 40)[1] == {}
 
 

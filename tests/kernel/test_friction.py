@@ -12,6 +12,7 @@ from crankwork.formula.traced_value import (
     Component,
     ProcedureValue,
     Root,
+    Tabulated,
     TracedAngle,
     TracedValue,
     absent,
@@ -20,6 +21,7 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kernel import compiled as compiled_kernels
 from crankwork.kernel.compiled import CONVERGED, Kernel
+from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
 from crankwork.kinematics.crank_grid import CrankGrid
 from varied import Varied
 
@@ -93,6 +95,39 @@ def test_a_guide_that_locks_or_never_leaves_one_side_is_left_to_an_analysis():
     kernel = Kernel([guide(*row) for row in rows], rows, ("max", "mean"), CrankGrid.from_degrees, cycle=360.0)
     errors = kernel(np.array([[-1.7, 0.9], [-1.7, 1.3]]).T).truncation_error
     assert (errors <= CONVERGED).tolist() == [True, False]
+
+
+def test_what_follows_from_forces_that_are_no_formulas_is_refused_every_time():
+    def traces(f):
+        trace = guide(0.3, f)
+        root = trace["max"].node.operands[0].node.operands[0].node
+        root.residuals = (root.residuals[0] + TracedValue(Tabulated(lambda degrees: f * degrees, "table")),)
+        twice = 2.0 * trace["max"].node.operands[0]
+        return trace | {"twice": TracedValue(ProcedureValue(1.0, "max", (twice,)), "twice")}
+
+    designs = DesignTraces([traces(f) for f in (0.2, 0.1, 0.4)], np.array([[0.2], [0.1], [0.4]]), ())
+    lowering = Lowering(designs, CrankGrid.from_degrees, np.arange(0.0, 360.0, 7.0), is_shifted=True)
+    for key in ("max", "twice", "mean"):
+        designs.add(key)
+        with pytest.raises(NotCompiledError, match="table"):
+            lowering.value(designs.traces[0][key])
+
+
+def test_links_whose_places_are_found_together_are_left_to_analyses():
+    """A root that gives places and their derivatives: Newton's method from nothing would find others, or none."""
+
+    def traces(length):
+        root = Root(lambda grid: np.stack([length + grid.cos, -grid.sin, -grid.cos]))
+        root.residuals = (TracedValue(Component(root, 0)) - (given("length", length, "length") + TracedAngle().cos),)
+        places = (TracedValue(Component(root, index), f"place_{index}") for index in range(3))
+        return {known.key: TracedValue(ProcedureValue(1.0, "max", (known,)), known.key) for known in places}
+
+    keys = [f"place_{index}" for index in range(3)]
+    designs = DesignTraces([traces(length) for length in (3.0, 2.9, 3.1)], np.array([[3.0], [2.9], [3.1]]), keys)
+    lowering = Lowering(designs, CrankGrid.from_degrees, np.arange(0.0, 360.0, 7.0), is_shifted=True)
+    for key in keys:
+        with pytest.raises(NotCompiledError, match="solved"):
+            lowering.value(designs.traces[0][key])
 
 
 @pytest.mark.slow

@@ -195,10 +195,10 @@ def test_who_compiles_and_who_finds_it_compiled_give_the_same_bits(write, tmp_pa
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are found as Linux tells of them")
 def test_killed_workers_and_drivers_lose_nothing(write, tmp_path):
-    # the size of a motor is one of a series
-    text = ALONE.replace('["free_force.1", "counterweight_moment"]', '"standard_motor_power"')
-    study = write(text.replace("55 mm", "38 mm").replace("65 mm", "42 mm"), "compressor")
-    assert prepared_study(load_study(study)).reason == "procedure"
+    # a link that turns about
+    text = ALONE.replace('["free_force.1", "counterweight_moment"]', '"link_swing.coupler"')
+    study = write(text.replace("55 mm", "198 mm").replace("65 mm", "202 mm"), "chebyshev")
+    assert prepared_study(load_study(study)).reason == "direction"
     run_study(load_study(study), tmp_path / "whole", ExecutionOptions(1))
     out, kills = tmp_path / "out", 0
     while True:

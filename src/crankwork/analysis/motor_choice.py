@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
 from crankwork.machine import Machine
 from crankwork.preparation import traced_inputs
@@ -44,9 +46,10 @@ def motor_choice(machine: Machine, mean: TracedValue, w: TracedValue) -> dict[st
         reserve = given("power_reserve", selection.reserve, path("reserve"))
     power = motor.needed_power(reserve, mean, w, traced_inputs.efficiency_of(machine.drive)).named("motor_power")
     result = mean_power(mean, w) | {"motor_power": power}
-    if (size := motor.standard_power(power.value)) is not None:
+    size = motor.standard_power(power)
+    if math.isfinite(size.value):
         result["standard_motor_power"] = TracedValue(
-            ProcedureValue(size, "next_size", (power,)), "standard_motor_power"
+            ProcedureValue(size.value, "next_size", (power,), argument=size), "standard_motor_power"
         )
     slip, frequency = given("rated_slip", selection.slip, path("slip")), selection.frequency
     mains = given("mains_frequency", frequency, path("frequency"), "Hz")

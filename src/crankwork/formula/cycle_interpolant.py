@@ -265,7 +265,7 @@ class CycleInterpolant:
     def sign_intervals(self, key: str) -> tuple[list[float], list[bool]]:
         """Return where stretches of one sign end, the last at the end of the cycle, and whether each is negative."""
         start, end = float(self._low[0]), float(self._high[-1])
-        inner = [crossing for crossing in self.crossings(key).tolist() if start + _AT_EDGE < crossing < end - _AT_EDGE]
+        inner = [place for place in self.crossings(key).tolist() if start + _SAME_PLACE < place < end - _SAME_PLACE]
         edges = np.array([start, *inner, end])
         middle = (edges[1:] + edges[:-1]) / 2
         interval = np.searchsorted(self._low, middle, side="right") - 1

@@ -9,9 +9,9 @@ from __future__ import annotations
 import functools
 import math
 import operator
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,7 @@ from crankwork.kernel.graph import in_order as values_in_order
 from crankwork.kernel.schedule import replaced
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 # Tolerance of an input as a linear function of a field, relative to its size.
 _TOLERANCE = 1e-12
@@ -79,11 +80,24 @@ Reason = Literal[
 
 
 class NotCompiledError(CrankworkError):
-    """A calculation that cannot be compiled: the reason, and the key of a value that shows it."""
+    """A calculation that cannot be compiled: the reason, a key that shows it, and the `values` that cannot."""
 
-    def __init__(self, reason: Reason, key: str) -> None:
+    def __init__(self, reason: Reason, key: str, values: Collection[str] = ()) -> None:
         super().__init__(f"{reason}: {key}")
-        self.reason, self.key = reason, key
+        self.reason, self.key, self.values = reason, key, set(values)
+
+
+def compiled_values(compile_one: Callable[[str], T], keys: Iterable[str]) -> dict[str, T]:
+    """Return what is made of each key; raise the first error, with all keys of which nothing is made."""
+    results, errors = dict[str, T](), dict[str, NotCompiledError]()
+    for key in keys:
+        try:
+            results[key] = compile_one(key)
+        except NotCompiledError as error:
+            errors[key] = error
+    for first in errors.values():
+        raise NotCompiledError(first.reason, first.key, errors)
+    return results
 
 
 @dataclass(frozen=True)
@@ -110,8 +124,7 @@ class DesignTraces:
         self._general_forms: dict[int, TracedValue] = {}
         self.differs: dict[int, bool] = {}
         self.roots: list[Node] = []
-        for key in keys:
-            self.add(key)
+        compiled_values(self.add, keys)
 
     def add(self, key: str) -> None:
         """Compare the dependencies of a key; a difference of structure raises an error on each call."""
@@ -609,7 +622,7 @@ class Lowering:
                 return self.graph.reduction(node.word, *map(self.value, node.operands))
             case "work":
                 pressure, volume = map(self.value, node.operands)
-                return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
+                return self.graph.reduction("integral", pressure * self._slope(volume, "table", node.operands[1].key))
         raise NotCompiledError("procedure", known.key or node.word)
 
     def _keep_sides(self, column: TracedValue, signs: KernelValue, shift: float) -> None:
@@ -628,11 +641,20 @@ class Lowering:
             return self._roots[where]
         if not isinstance(root, Root) or not root.residuals or root.operands:
             raise NotCompiledError("solved", key)
+        stated = np.abs(root.solve(self.angles_at(self._sample_angles)))
+        if len(stated) != len(root.residuals):
+            # positions of links with their derivatives, which no forces are
+            raise NotCompiledError("solved", key)
         unknowns = [self.graph.unknown(*where, index) for index in range(len(root.residuals))]
         # what follows from the places of unknowns is not kept
         self._roots[where], kept = unknowns, dict(self._values)
-        residuals = [self.value(residual, shift=shift, fixed=fixed) for residual in root.residuals]
-        self._values = kept
+        try:
+            residuals = [self.value(residual, shift=shift, fixed=fixed) for residual in root.residuals]
+        except NotCompiledError:
+            del self._roots[where]
+            raise
+        finally:
+            self._values = kept
         indices = [unknown.index for unknown in unknowns]
         steps, margin = self._newton_step(unknowns, residuals)
         values = [-start for start in replaced(residuals, dict.fromkeys(indices, self.graph.constant(0.0)))]
@@ -642,7 +664,7 @@ class Lowering:
         self._roots[where] = values
         open_yet, size = (functools.reduce(operator.add, (x * x for x in row)) for row in (last, values))
         # where all forces vanish rounding is left of them
-        least = (_SMALL * float(np.nanmax(np.abs(root.solve(self.angles_at(self._sample_angles)))))) ** 2
+        least = (_SMALL * float(np.nanmax(stated))) ** 2
         settled = self.graph.apply("choose", (size + least) * _SETTLED**2 - open_yet, determinant, -1.0)
         self._guards.append(settled if fixed is not None else self.graph.reduction("least", settled))
         for column, places in root.sides if self._is_exact and fixed is None else ():
@@ -708,16 +730,20 @@ class Lowering:
         """
         # a volume grows ever faster after a dead centre: from the far side steps do not overshoot
         near, start = angles[0], max(angles)
-        try:
-            slope = self._by_angle.of(self.value(column))
-        except (KeyError, TypeError):
-            raise NotCompiledError("ends", column.key) from None
+        slope = self._slope(self.value(column), "ends", column.key)
         step = angle = self.graph.constant(start)
         for _ in range(_STEPS):
             step = (self._at(column, angle, near) - target) / self.graph.at_angle(slope, angle, near) * (180 / math.pi)
             angle = angle - step
         self._guards.append(_CONVERGED**2 - step * step)
         return angle
+
+    def _slope(self, column: KernelValue, reason: Reason, key: str) -> KernelValue:
+        """Return the derivative of a column by the crank angle, which tables have not."""
+        try:
+            return self._by_angle.of(column)
+        except (KeyError, TypeError):
+            raise NotCompiledError(reason, key) from None
 
     def _largest_size(self, column: KernelValue) -> KernelValue:
         high, low = self.graph.reduction("max", column), self.graph.reduction("min", column)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
+from crankwork.formula.traced_value import select
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.resources import read_resource
@@ -139,9 +140,12 @@ def gear_ratio_of_motor(w_s: Value, s_n: Value, w: Value) -> Value:
     return w_s * (1 - s_n) / w
 
 
-def standard_power(needed: float) -> float | None:
-    """Return the least power of the standard series that is not below the needed one, None beyond the series. [W]"""
-    return next((power * 1e3 for power in _SERIES["powers"] if power * 1e3 >= needed * (1 - _ROUNDING)), None)
+def standard_power(needed: Any) -> Any:  # noqa: ANN401 - a number, or a traced value
+    """Return the least power of the standard series that is not below the needed one, infinity beyond it. [W]"""
+    size: Any = math.inf
+    for power in reversed(_SERIES["powers"]):
+        size = select(power * 1e3 * (1 + _ROUNDING) - needed, power * 1e3, size)
+    return size
 
 
 def first_angle_beyond(load: Curve, torque: float) -> float | None:

@@ -245,6 +245,7 @@ class _Neighbours:
         self.stated = with_requested(analyse(machine), keys)
         self.near = _Near((), np.zeros(0), 0.0)
         self._compiled: list[tuple[NDArray[np.intp], MachineVariants]] = []
+        self._analysed: dict[bytes, Results] = {}
         self._generator = np.random.default_rng(seed)
         self.refused: dict[int, str] = {}
 
@@ -277,24 +278,20 @@ class _Neighbours:
         spans = np.stack([np.maximum(low, ends[:, 0]), self._middle, np.minimum(high, ends[:, 1])], axis=1)
         few = self._designs(np.random.default_rng(0).standard_normal((_CHECKED, len(self.given))))
 
-        def machines_of(indices: NDArray[np.intp]) -> list[tuple[NDArray[np.intp], MachineVariants]]:
-            keys = [self.near.names[index] for index in indices]
-            machines = MachineVariants(self._description, self._numbers, spans, keys, self._overrides)
+        parts = [names] if names.size else []
+        while parts:
+            part = parts.pop()
+            keys = [self.near.names[index] for index in part]
+            machines = MachineVariants(self._description, self._numbers, spans, keys, self._overrides, self._analysed)
             machines.compile(None, few, is_for_few=count < _MANY)
-            return [] if machines.reason else [(indices, machines)]
-
-        left = [names] if names.size else []
-        while left:
-            subset = left.pop()
-            compiled = machines_of(subset)
-            if not compiled and subset.size > 1:
-                halves = np.array_split(subset, 2)
-                for half, other in (halves, halves[::-1]):
-                    if part := machines_of(half):
-                        compiled += part
-                        left.append(other)
-                        break
-            self._compiled += compiled
+            if not machines.reason:
+                self._compiled.append((part, machines))
+                continue
+            # without those that are told, if any are
+            left = part[[key not in machines.refused for key in keys]]
+            is_told = left.size < part.size
+            parts += [half for half in np.array_split(left, 1 if is_told else 2) if half.size < part.size]
+            parts = [one for one in parts if one.size]
 
     @property
     def known(self) -> list[int]:

@@ -69,14 +69,16 @@ class MachineVariants:
         spans: Array,
         keys: Sequence[str],
         overrides: Sequence[str | Setting] = (),
+        analysed: dict[bytes, Results] | None = None,
     ) -> None:
-        self._description, self._overrides = description, list(overrides)
+        """`analysed`: where results of designs that are traced or checked are kept for other keys."""
+        self._description, self._overrides, self._analysed = description, list(overrides), analysed
         self._numbers, self._spans, self.keys = numbers, spans, list(keys)
         # for designs with other laws, each around one of them
         self._kernels: list[Kernel] = []
-        # why the calculation is not compiled, and the key that shows it
-        self.reason, self.at_key = "", ""
-        self.stated = self.results(spans[:, 1])
+        # why the calculation is not compiled, the key that shows it, and the single values that do not compile
+        self.reason, self.at_key, self.refused = "", "", set[str]()
+        self.stated = self._kept(spans[:, 1])
         for key in keys:
             check_single(self.stated, key)
         self.keys = [self.stated.current(key) for key in keys]
@@ -85,6 +87,14 @@ class MachineVariants:
         """Return the results of one design."""
         written = [number.setting(value) for number, value in zip(self._numbers.values(), design, strict=True)]
         return with_requested(analyse(self._description.machine([*self._overrides, *written])), self.keys)
+
+    def _kept(self, design: Array) -> Results:
+        """Return the results of a design that are kept."""
+        if self._analysed is None:
+            return self.results(design)
+        if design.tobytes() not in self._analysed:
+            self._analysed[design.tobytes()] = self.results(design)
+        return with_requested(self._analysed[design.tobytes()], self.keys)
 
     def compile(self, steps: int | None, checked: Array, *, is_for_few: bool = False) -> None:
         """Compile the calculation and check it against analyses of some designs; store the reason if that fails.
@@ -108,6 +118,7 @@ class MachineVariants:
                 failures += 1
                 if not self._kernels:
                     self.reason, self.at_key = self.reason or error.reason, self.at_key or error.key
+                    self.refused |= error.values
                 if error.reason not in ("ways", "absent"):
                     return
             except CrankworkError:
@@ -138,7 +149,7 @@ class MachineVariants:
         `around`: the design that numbers are varied from, over a `part` of their ranges; else the intermediate one.
         """
         middle = self._spans[:, 1] if around is None else around
-        stated = self.stated if around is None else self.results(middle)
+        stated = self.stated if np.array_equal(middle, self._spans[:, 1]) else self._kept(middle)
         rows, samples = [middle], [stated]
         for index, (low, _, high) in enumerate(self._spans):
             ends = (low, high) if low < high else middle[index] + np.array([-1, 1]) * _OFFSET * middle[index]
@@ -161,7 +172,7 @@ class MachineVariants:
                     raise
             # a design in which all fields differ tells sums of them from products
             rows.append(np.array([rows[2 + 2 * index][index] for index in range(len(self._spans))]))
-            samples.append(self.results(rows[-1]))
+            samples.append(self._kept(rows[-1]))
 
     def _near(self, middle: Array, index: int, end: float) -> tuple[Array, Results]:
         """Return a design with another value of one field, as close to the end of its range as machines exist."""
@@ -169,7 +180,7 @@ class MachineVariants:
             row = middle.copy()
             row[index] += part * (end - row[index])
             try:
-                results = self.results(row)
+                results = self._kept(row)
             except CrankworkError:
                 continue
             if all(key in holding_all(results, self.keys).trace for key in self.keys):
@@ -182,18 +193,20 @@ class MachineVariants:
         size = np.nanmax(np.abs(batch.values), axis=1)
         for index, design in enumerate(designs.T):
             try:
-                results = self.results(design)
+                results = self._kept(design)
             except CrankworkError:
                 continue
             expected = np.array([single(results, key) for key in self.keys])
             if np.any(np.isnan(expected) & np.isfinite(batch.values[:, index])):
-                raise NotCompiledError("absent", self.keys[int(np.argmax(np.isnan(expected)))])
+                keys = {key for key, value in zip(self.keys, expected, strict=True) if np.isnan(value)}
+                raise NotCompiledError("absent", self.keys[int(np.argmax(np.isnan(expected)))], keys)
             excess = np.abs(expected - batch.values[:, index]) - limit * size
             if limit > _SAME:
                 # with sampled angles another of equal peaks may be the largest
                 excess[["_angle" in key for key in self.keys]] = -np.inf
             if batch.truncation_error[index] <= CONVERGED and np.any(excess > 0):
-                raise NotCompiledError("differs", self.keys[int(np.argmax(excess))])
+                keys = {key for key, more in zip(self.keys, excess, strict=True) if more > 0}
+                raise NotCompiledError("differs", self.keys[int(np.argmax(excess))], keys)
 
     def check_at(self, kernel: Kernel, design: Array) -> None:
         """Raise NotCompiledError if compiled values differ from the analysis of one design."""
