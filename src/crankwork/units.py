@@ -175,7 +175,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "volume_rate": [
         (1 / 60, "m3/min м3/мин"), (1.0, "m3/s м3/с"), (1 / 3600, "m3/h м3/ч"), (1e-3, "l/s L/s л/с"),
         (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min cfm"), (_FT**3, "ft3/s cfs"),
-        (1e-3 / 3600, "l/h L/h л/ч"), (231 * _IN**3 / 60, "gal(US)/min gpm(US)"), (4.54609e-3 / 60, "gal(UK)/min gpm(UK)"),
+        (1e-3 / 3600, "l/h L/h л/ч"), (231 * _IN**3 / 60, "gal(US)/min gpm(US)"),
+        (4.54609e-3 / 60, "gal(UK)/min gpm(UK)"),
     ],
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 Вт/м3")],
     "per_temperature": [(1.0, "1/K 1/К")],

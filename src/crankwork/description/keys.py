@@ -793,7 +793,8 @@ DIAGRAM = {
 }
 _OWN = {**DIAGRAM, "valves": KeySpec(VALVES, instead_of=tuple(DIAGRAM))}
 _GAS = TableSpec("gas", {
-    "cycle": KeySpec(Choice(("720 deg", "360 deg")), required=True),
+    "cycle": KeySpec(Choice(("720 deg", "360 deg")), required=True, instead_of=("pressure",)),
+    "pressure": KeySpec(_PRESSURE, instead_of=("cycle", *DIAGRAM, "valves", "cylinders")),
     "ambient": KeySpec(Quantity(("pressure",), 0.0, 1e7), default=AMBIENT, only={"pressures": ("absolute",)}),
     "back_pressure": KeySpec(_PRESSURE),
     "pressures": PRESSURES,
@@ -956,4 +957,6 @@ LOADED_FILE, LOADED_SIZED_FILE = (
 OFFSET_FILE, LOADED_OFFSET_FILE = (
     with_defaults(keys, "cylinder", _CYLINDER, bore=None) for keys in (MACHINE_FILE, LOADED_FILE)
 )
-STARTED_ENGINE = with_defaults(LOADED_FILE, "crank", _CRANK, speed="1 rad/s")
+GIVEN_SPEED = ((MACHINE_FILE, LOADED_FILE), (OFFSET_FILE, LOADED_OFFSET_FILE))
+# where it starts by itself, or where nothing has a mass
+UNIT_SPEED = tuple(tuple(with_defaults(keys, "crank", _CRANK, speed="1 rad/s") for keys in row) for row in GIVEN_SPEED)

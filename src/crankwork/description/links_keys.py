@@ -309,7 +309,7 @@ LINKAGE_FILE = TableSpec("file", {
     "table": KeySpec(TABLE),
 })  # fmt: skip
 
-STARTED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
+UNIT_SPEED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
 _OF_CRANKSHAFT = ("stages", "vessels", "shaft", "bearings", "balance")

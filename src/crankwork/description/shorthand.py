@@ -322,7 +322,7 @@ def _stated(table: Mapping[str, Any], gas: Gas, number: int) -> dict[str, Any]:
     """Return the diagram of a cylinder as stated, or the pressure of a cylinder that stays open."""
     counted = {key: table[key] for key in _COUNTED if key in table}
     diagram: Any = functools.reduce(lambda inner, name: inner[name], gas.path.split(".")[1:], table)
-    if isinstance(diagram, str):
+    if isinstance(diagram, str) or "pressure" in diagram:
         return counted | {"pressure": _unit(gas.points["o"].pressure or 0.0, "Pa")}
     if gas.measured is not None:
         counted["pressures"] = "absolute" if gas.is_absolute else "gauge"
