@@ -382,7 +382,10 @@ def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader)
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_ends"))
     if len(set(load["between"] or "  x")) < 2:
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_twice", point=load["between"][0]))
-    _check_table(key, load, reader)
+    if load["kind"] == "force" and len(load["force"]) > 1:
+        reader.add_error(f"{key}.force", ErrorMessage("entries", count=len(load["force"]), wanted=1))
+    else:
+        _check_table(key, load, reader)
     if linkage is not None:
         _check_names(key, load, linkage, reader)
     return not any(problem.key.startswith(key) for problem in reader.problems)
@@ -483,8 +486,12 @@ def _load(load: Values) -> Load:
                 load["slider"], _curve(load, "force"), load["against"],
                 -1 if load["stroke"] == "falling" else 1, load.si("start") or 0.0, load["acts"],
             )  # fmt: skip
+        case "force" if "force" in load:
+            size, direction = load["force"][0].value, load.si("angle")
+            x, y = size * math.cos(direction), size * math.sin(direction)
+            return ForceOnPoint(load["point"], x, y, load["link"] or "", (size, direction))
         case "force":
-            return load.made(ForceOnPoint, link=load["link"] or "")
+            return load.made(ForceOnPoint, link=load["link"] or "", polar=None)
         case "torque":
             return TorqueOnLink(load["link"], _curve(load, "torque"))
         case "damper" if "slider" in load:

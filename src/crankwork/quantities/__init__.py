@@ -248,6 +248,7 @@ _LINKAGE = (
              "Moment of loads, inertia and reactions found before about the origin of a link, positive anticlockwise."),
     Quantity("force_along", "N", "Component of a force along a guide."),
     Quantity("force_across", "N", "Component of a force across a guide, to the left of its direction."),
+    Quantity("load_size", "N", "Size of one load that is stated with its direction."),
     Quantity("load_x", "N", "Component of one load along the fixed x axis."),
     Quantity("load_y", "N", "Component of one load along the fixed y axis."),
     Quantity("process_force", "N", "Force of the process, positive against the working stroke."),
