@@ -10,12 +10,15 @@ import numpy as np
 import pytest
 
 from crankwork.errors import CrankworkError
+from crankwork.note.explain import explanation
+from crankwork.report.notices import assumption_texts
 from each import for_each
 from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere
 
 RPM = math.pi / 30
+LBF, INCH = 4.4482216152605, 0.0254
 
 CELL = """
 format = 2
@@ -187,3 +190,99 @@ def test_a_measured_indicated_power_is_not_overruled_by_the_line() -> None:
 def test_fuel_without_a_line_is_refused(rates: str) -> None:
     with pytest.raises(CrankworkError, match=r"must rise|write 4 of them"):
         analysed(WILLANS.replace('"4 kg/h", "6.1 kg/h", "8 kg/h", "10.1 kg/h"', rates))
+
+
+def test_a_torque_by_the_pressure_of_one_position_needs_no_speed() -> None:
+    """0.6 MPa on 120 mm at 45 degrees past the inner dead centre; arm r (sin q + sin 2q / 2 sqrt(n2 - sin2 q))."""
+    results = analysed("""
+crank.radius = "100 mm"
+rod.length = "400 mm"
+cylinder.bore = "120 mm"
+gas.pressure = "0.6 N/mm2"
+""")
+    force = 0.6e6 * math.pi / 4 * 0.12**2
+    arm = 0.1 * (math.sin(math.pi / 4) + 1 / (2 * math.sqrt(16 - 0.5)))
+    assert results.value("crank_torque", at=45) == pytest.approx(force * arm, rel=1e-12)
+    assert [text for text in assumption_texts(results, "en") if "crank.speed = 1 rad/s" in text]
+
+
+@for_each("mass", ["piston.mass", "rod.mass", "crank.mass"])
+def test_a_mass_needs_a_speed(mass: str) -> None:
+    with pytest.raises(CrankworkError, match=r"crank\.speed: is missing"):
+        analysed(f"""
+crank.radius = "100 mm"
+rod.length = "400 mm"
+cylinder.bore = "120 mm"
+gas.pressure = "0.6 N/mm2"
+{mass} = "2 kg"
+""")
+
+
+def test_weight_and_inertia_take_from_the_pressure_at_an_instant() -> None:
+    """700 kN/m2 on 100 mm, 1.1 kg, 20 degrees past the upper dead centre: by the exact acceleration of a cosine rod."""
+    results = analysed("""
+crank = { stroke = "120 mm", speed = "2000 rpm" }
+rod.length = "250 mm"
+piston.mass = "1.1 kg"
+cylinder = { bore = "100 mm", inclination = "0 deg" }
+gas.pressure = "700 kN/m2"
+method.weights = true
+""")
+    angles = math.radians(20) + np.array([-1, 0, 1]) * 1e-4
+    reach = 0.06 * np.cos(angles) + np.sqrt(0.25**2 - (0.06 * np.sin(angles)) ** 2)
+    inertia = 1.1 * (reach[2] - 2 * reach[1] + reach[0]) / 1e-8 * (2000 * RPM) ** 2
+    force = 700e3 * math.pi / 4 * 0.1**2 + inertia + 1.1 * 9.80665
+    assert results.value("piston_force", at=20) == pytest.approx(force, rel=1e-6)
+
+
+FORCED = """
+fixed_points = { O2 = ["0 in", "0 in"], O4 = ["8 in", "0 in"] }
+crank = { pivot = "O2", pin = "A", radius = "6 in" }
+[links]
+coupler = { joins = ["A", "B"], length = "18 in" }
+rocker = { joins = ["O4", "B"], length = "12 in", points = { Q = ["5 in", "0 in"] } }
+"""
+
+
+@for_each("pull", ['force = "120 lbf"\nangle = "220 deg"', 'x = "-91.925333 lbf"\ny = "-77.134513 lbf"'])
+def test_a_force_in_a_direction_is_held_by_the_crank(pull: str) -> None:
+    """The coupler has two forces alone, along it; its moment about the pivot of the rocker is that of the load."""
+    results = analysed(FORCED + f'[[loads]]\nkind = "force"\npoint = "Q"\n{pull}\n')
+    pin = 6 * np.exp(0.75j * math.pi)
+    line = 8 - pin
+    along = (18**2 - 12**2 + abs(line) ** 2) / (2 * abs(line))
+    joint = pin + line / abs(line) * (along + 1j * math.sqrt(18**2 - along**2))
+    rod, load = (joint - pin) / 18, 120 * np.exp(1j * math.radians(220))
+    held = -((joint - 8).conjugate() * 5 / 12 * load).imag / ((joint - 8).conjugate() * rod).imag
+    torque = (pin.conjugate() * held * rod).imag * LBF * INCH
+    assert results.value("driving_torque", at=135) == pytest.approx(torque, rel=1e-7)
+    assert "Q_x,Q = Q_Q·cos θ" in explanation(results, "driving_torque", at=135) or pull.startswith("x")
+
+
+LADDER = """
+guides = { floor = { through = ["0 m", "0 m"] }, wall = { through = ["0 m", "0 m"], angle = "90 deg" } }
+links.ladder = { joins = ["A", "B"], length = "3 m" }
+sliders = { foot = { pin = "A", guide = "floor" }, head = { pin = "B", guide = "wall" } }
+driver = { slider = "foot", start = "1.5 m", velocity = "2 m/s", acceleration = "1 m/s2" }
+"""
+
+
+def test_a_ladder_slips_at_an_instant() -> None:
+    """x2 + y2 = 9 differentiated twice."""
+    results = analysed(LADDER)
+    height = math.sqrt(9 - 1.5**2)
+    falls = -1.5 * 2 / height
+    assert results.value("slider_velocity.head", at=0) == pytest.approx(falls, rel=1e-12)
+    change = -(2**2 + 1.5 * 1 + falls**2) / height
+    assert results.value("slider_acceleration.head", at=0) == pytest.approx(change, rel=1e-7)
+    assert results.value("link_angular_velocity.ladder", at=0) == pytest.approx(2 / height, rel=1e-12)
+
+
+@for_each(("old", "new", "told"), [
+    ("2 m/s", "2 rad/s", r"driver\.velocity: this driver moves along a line"),
+    ("1 m/s2", "1 rad/s2", r"driver\.acceleration: this driver moves along a line"),
+    ('start = "1.5 m", ', "", r"driver\.start: the law begins nowhere"),
+])  # fmt: skip
+def test_an_instant_is_a_position_and_its_rates(old: str, new: str, told: str) -> None:
+    with pytest.raises(CrankworkError, match=told):
+        analysed(LADDER.replace(old, new))

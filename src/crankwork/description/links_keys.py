@@ -105,7 +105,9 @@ _DRIVER = TableSpec("driver", {
     "rod": KeySpec(_HALF),
     "between": KeySpec(ListOf(NAME, fewest=2, most=2)),
     "start": KeySpec(_COORDINATE_OF_DRIVER),
-    "law": KeySpec(ListOf(_SEGMENT, fewest=1, most=100), required=True),
+    "law": KeySpec(ListOf(_SEGMENT, fewest=1, most=100), required=True, instead_of=("velocity",)),
+    "velocity": KeySpec(_RATE_OF_DRIVER, instead_of=("law",)),
+    "acceleration": KeySpec(Quantity(("acceleration", "angular_acceleration"), -1e6, 1e6), only={"velocity": ()}),
     "period": KeySpec(TIME),
     "jerk": KeySpec(Flag()),
 })  # fmt: skip
