@@ -12,6 +12,7 @@ import pytest
 from crankwork.errors import CrankworkError
 from crankwork.note.explain import explanation
 from crankwork.report.notices import assumption_texts
+from crankwork.report.summary import values_text
 from each import for_each
 from machine_texts import analysed
 
@@ -286,3 +287,21 @@ def test_a_ladder_slips_at_an_instant() -> None:
 def test_an_instant_is_a_position_and_its_rates(old: str, new: str, told: str) -> None:
     with pytest.raises(CrankworkError, match=told):
         analysed(LADDER.replace(old, new))
+
+
+def test_all_values_of_an_instant_are_told_with_their_keys() -> None:
+    """A piston of 4 in at 100 psi: 1256.6 lbf; the side force of a rod at asin(3 sin 60 / 8)."""
+    results = analysed("""
+units = "imperial"
+crank.radius = "3 in"
+rod.length = "8 in"
+cylinder.bore = "4 in"
+gas.pressure = "100 psi"
+""")
+    told = {line.split()[-1]: line.split()[-3:-1] for line in values_text(results, 60).splitlines()}
+    lean = math.asin(3 * math.sin(math.pi / 3) / 8)
+    assert told["gas_force"] == ["1256.64", "lbf"]
+    assert told["side_force"] == [f"{400 * math.pi * math.tan(lean):.6g}", "lbf"]
+    assert told["point_velocity_x.B"][0] == "0"
+    with pytest.raises(CrankworkError, match="no crank angle of 400 deg"):
+        values_text(analysed('crank = { radius = "1 m", speed = "9 rpm" }\nrod.ratio = 0.2'), 400)

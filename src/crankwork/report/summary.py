@@ -8,7 +8,8 @@ from typing import Any
 
 from crankwork.analysis import Results
 from crankwork.analysis.assembly_modes import MOST_SIGNED, AssemblyMode, AssemblyModes
-from crankwork.analysis.rounding_noise import summary_without_rounding
+from crankwork.analysis.rounding_noise import summary_without_rounding, without_rounding
+from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
@@ -104,6 +105,22 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     if results.compared is not None:
         lines += ["", comparison_text(results, language, per_area=per_area)]
     return "\n".join(lines)
+
+
+@in_own_units
+def values_text(results: Results, place: float, language: Language = "en") -> str:
+    """Return every column at a crank angle [deg] or time [s], with its key."""
+    whole = results.complete
+    columns = whole.columns_at([whole.degrees_of(place) if whole.period else place])
+    keys = [key for key in dict.fromkeys((*results.columns, *whole.columns)) if key in columns]
+    if not keys:
+        raise CrankworkError(ErrorMessage("explain_what"))
+    # refused by its name where it is beyond the cycle or never reached
+    whole.value(next((key for key in keys if not math.isfinite(columns[key][0])), keys[0]), at=place)
+    shown = without_rounding({key: columns[key] for key in keys}, results.machine.speed)
+    rows = aligned([_row(whole, (key, float(shown[key][0])), language) for key in keys])
+    wide = max(map(len, rows))
+    return "\n".join(f"{row:<{wide}}  {key}" for row, key in zip(rows, keys, strict=True))
 
 
 def by_subject(results: Results) -> dict[str, dict[str, float]]:
