@@ -5,10 +5,12 @@ Delhi 2005, which prints 3.37 Hz and a node 0.855 m from the first flywheel. All
 """
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError
 from crankwork.note.explain import explanation
 from crankwork.report.notices import assumption_texts
@@ -305,3 +307,43 @@ gas.pressure = "100 psi"
     assert told["point_velocity_x.B"][0] == "0"
     with pytest.raises(CrankworkError, match="no crank angle of 400 deg"):
         values_text(analysed('crank = { radius = "1 m", speed = "9 rpm" }\nrod.ratio = 0.2'), 400)
+
+
+PUMP = """
+format = 2
+crank = { stroke = "300 mm", speed = "20 rpm" }
+rod.length = "90 m"
+cylinder.bore = "200 mm"
+[gas]
+pressures = "absolute"
+cycle = "360 deg"
+ambient = "10.3 mH2O"
+[gas.valves]
+density = "1000 kg/m3"
+suction_height = "3 m"
+discharge_height = "20 m"
+vapour_pressure = "2.5 mH2O"
+suction_pipe = { length = "8 m", diameter = "100 mm", friction = 0.04 }
+discharge_pipe = { length = "25 m", diameter = "100 mm", friction = 0.04 }
+"""
+
+
+@for_each("written", ["as a crank gear", "as a linkage"])
+def test_a_pump_with_pipes_does_the_work_of_their_friction(written: str, tmp_path: Path) -> None:
+    """With a long rod the plunger moves as a cosine: heads of 23 m, and two thirds of the greatest friction."""
+    file = tmp_path / "pump.toml"
+    file.write_text(PUMP, encoding="utf-8")
+    results = analysed(PUMP if written == "as a crank gear" else expanded(file))
+    gravity, area, speed = 9.80665, math.pi / 4 * 0.2**2, 20 * RPM
+    fastest = 4 * speed * 0.15
+    friction = 0.04 * (8 + 25) / 0.1 * fastest**2 / (2 * gravity)
+    work = 1000 * gravity * area * 0.3 * (23 + 2 / 3 * friction)
+    assert results["mean_torque"] * 2 * math.pi == pytest.approx(work, rel=1e-4)
+    begins = 8 / gravity * 4 * speed**2 * 0.15
+    assert results["acceleration_head.cylinder.suction"] == pytest.approx(begins, rel=2e-3)
+    # half-way there is no acceleration, and the pressure is that of the suction less all friction of its pipe
+    suction = (10.3 - 3) - friction * 8 / 33
+    head = results.value("gas_pressure.cylinder", at=90) / (1000 * gravity) + 10.3
+    assert head == pytest.approx(suction, rel=2e-3)
+    # the forces of an engine, which has no pipes, would be others
+    assert "piston_force" not in results.complete.columns

@@ -951,9 +951,11 @@ SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
 CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for keys in (MACHINE_FILE, SIZED_FILE))
 
 
-# for engines with loads or friction, whose note is that of a linkage
+# for engines with loads, friction or a liquid, whose note is that of a linkage
+_WITH_LIQUID = _GAS._replace(keys={**_GAS.keys, "valves": _GAS.keys["valves"]._replace(kind=PIPED_VALVES)})
 LOADED_FILE, LOADED_SIZED_FILE = (
-    keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT}) for keys in (MACHINE_FILE, SIZED_FILE)
+    keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT, "gas": keys.keys["gas"]._replace(kind=_WITH_LIQUID)})
+    for keys in (MACHINE_FILE, SIZED_FILE)
 )
 # where an offset is all that is known of the cylinder
 OFFSET_FILE, LOADED_OFFSET_FILE = (

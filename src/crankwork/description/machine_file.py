@@ -24,8 +24,10 @@ from crankwork.description.keys import (
     LOADING,
     METHOD,
     OWN_SIZES,
+    PIPED_VALVES,
     SIZED_FILE,
     TEST_FILE,
+    VALVES,
     stated_document,
 )
 from crankwork.description.links_keys import (
@@ -84,6 +86,7 @@ _WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
     ("stages", (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle"), STAGES_FILE),
     ("torsion", (*_OF_LINKAGES, "rod", "piston", "cylinder", "engine", "gas", "cycle", "torque", "load"), TORSION_FILE),
 )
+OF_LIQUID = PIPED_VALVES.keys.keys() - VALVES.keys.keys()
 # what needs a speed: inertia, damping, and work of the gas in a time
 _OF_SPEED = frozenset((
     "mass", "crosshead_mass", "small_end_mass", "big_end_mass", "inertia", "pieces", "measured", "valves", "damping",
@@ -279,7 +282,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
     from crankwork.description.shorthand import has_own_sizes, key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
 
     if not machine.method.is_exact:
-        stated = next((key for key in LOADING if key in values), "engine")
+        stated = next((key for key in (*LOADING, "engine") if key in values), "gas.valves")
         reader.add_error("method.kinematics", ErrorMessage("loaded_exact", method=machine.method.name, key=stated))
         return None
     own = Reader(**reader.options)
@@ -290,7 +293,8 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
     notices += machine.engine.notices if machine.engine is not None else ()
-    if "loads" in values or has_own_sizes(values):
+    has_liquid = machine.gas is not None and machine.gas.valves is not None and machine.gas.valves.density is not None
+    if "loads" in values or has_own_sizes(values) or has_liquid:
         # the forces of the engine alone would be other ones
         notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance", "torsion") if name in values]
         return replace(linkage, stated=machine.stated, notices=tuple(notices))
@@ -360,6 +364,10 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else UNIT_SPEED_FILE if has_no_speed else LINKAGE_FILE
     cycle, cylinder, is_loaded = values.get("cycle"), values.get("cylinder"), not LOADING.keys().isdisjoint(values)
+    gas = values.get("gas")
+    if isinstance(gas, dict) and isinstance(valves := gas.get("valves"), dict):
+        # a liquid is that of a chamber
+        is_loaded = is_loaded or not OF_LIQUID.isdisjoint(valves)
     is_calculated = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
     is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
     stated = cylinder if isinstance(cylinder, dict) else ()

@@ -13,7 +13,7 @@ from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.document import Description, load
 from crankwork.description.keys import CHAMBER_CYCLE, LOADING, OF_LINKAGE, OWN_SIZES
-from crankwork.description.machine_file import apply_settings, file_keys, idle_keys, read, with_first_sizes
+from crankwork.description.machine_file import OF_LIQUID, apply_settings, file_keys, idle_keys, read, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.table_file import resolve_file_columns
 from crankwork.description.toml_edit import TomlPositions, key_text, toml, with_value
@@ -397,6 +397,9 @@ def engine_of(description: Description) -> Machine:
     left_out = {*LOADING, "document"}
     alone = {key: value for key, value in with_first_sizes(description.values, Reader()).items() if key not in left_out}
     alone["crank"] = {"speed": "1 rad/s", **alone["crank"]}
+    if not OF_LIQUID.isdisjoint(alone.get("gas", {}).get("valves", ())):
+        # an engine has valves for gas; those of the liquid are copied as they are stated
+        alone["gas"] = {**alone["gas"], "valves": {"suction": "1 bar", "discharge": "2 bar", "compression_exponent": 1.0}}
     if "engine" in alone:
         alone["engine"] = {key: value for key, value in alone["engine"].items() if key not in OWN_SIZES}
     return Description(alone, description.name, folder=description.folder).machine()
