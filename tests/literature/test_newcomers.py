@@ -347,3 +347,84 @@ def test_a_pump_with_pipes_does_the_work_of_their_friction(written: str, tmp_pat
     assert head == pytest.approx(suction, rel=2e-3)
     # the forces of an engine, which has no pipes, would be others
     assert "piston_force" not in results.complete.columns
+
+
+def test_a_point_of_the_coupler_by_its_distance_and_direction() -> None:
+    """7.5 in at 30 degrees from the line of the joints; the pivot of the rocker by distance and direction too."""
+    results = analysed("""
+fixed_points = { O2 = ["0 in", "0 in"], O4 = ["10 in", "-20 deg"] }
+crank = { pivot = "O2", pin = "A", radius = "5 in" }
+[links]
+coupler = { joins = ["A", "B"], length = "8.5 in", points = { P = ["7.5 in", "30 deg"] } }
+rocker = { joins = ["O4", "B"], length = "7 in" }
+""")
+    pin, pivot = 5 * np.exp(1j * math.pi / 3), 10 * np.exp(-1j * math.pi / 9)
+    line = pivot - pin
+    along = (8.5**2 - 7**2 + abs(line) ** 2) / (2 * abs(line))
+    joint = pin + line / abs(line) * (along + 1j * math.sqrt(8.5**2 - along**2))
+    point = (pin + (joint - pin) / 8.5 * 7.5 * np.exp(1j * math.pi / 6)) * INCH
+    assert results.value("point_x.P", at=60) == pytest.approx(point.real, rel=1e-12)
+    assert results.value("point_y.P", at=60) == pytest.approx(point.imag, rel=1e-12)
+
+
+def test_a_clutch_of_a_power_is_pressed_by_its_torque() -> None:
+    """20 kW at 1575 rpm over four faces of 240 and 120 mm, worn evenly."""
+    results = analysed("""
+[clutch]
+faces = 4
+friction = 0.3
+outer_diameter = "240 mm"
+inner_diameter = "120 mm"
+power = "20 kW"
+driving.speed = "1575 rpm"
+""")
+    force = 20e3 / (1575 * RPM) / (4 * 0.3 * 0.09)
+    assert results["clutch_force"] == pytest.approx(force, rel=1e-12)
+    assert results["clutch_pressure"] == pytest.approx(force / (2 * math.pi * 0.06 * 0.06), rel=1e-12)
+
+
+def test_a_four_bar_with_centres_by_distance_and_direction_has_the_torque_of_energy() -> None:
+    """Lengths, masses and accelerations as in R. L. Norton, Design of machinery, ch. 11; by differences of energy."""
+    results = analysed("""
+fixed_points = { O2 = ["0 in", "0 in"], O4 = ["19 in", "0 in"] }
+[crank]
+pivot = "O2"
+pin = "A"
+radius = "5 in"
+speed = "25 rad/s"
+angular_acceleration = "-40 rad/s2"
+mass = "1.5 lb"
+centre = ["3 in", "30 deg"]
+inertia = "0.4 lb-in-s2"
+inertia_about = "centre"
+[links.coupler]
+joins = ["A", "B"]
+length = "15 in"
+mass = "7.7 lb"
+inertia = "1.5 lb-in-s2"
+centre = ["9 in", "45 deg"]
+[links.rocker]
+joins = ["O4", "B"]
+length = "10 in"
+mass = "5.8 lb"
+inertia = "0.8 lb-in-s2"
+centre = ["5 in", "0 deg"]
+""")
+    unit = LBF * INCH
+    masses, inertias = np.array([1.5, 7.7, 5.8]) * 0.45359237, np.array([0.4, 1.5, 0.8]) * unit
+    step = 1e-4
+    angles = math.pi / 3 + np.arange(-2, 3) * step
+    pin = 5 * np.exp(1j * angles)
+    line = 19 - pin
+    along = (15**2 - 10**2 + abs(line) ** 2) / (2 * abs(line))
+    joint = pin + line / abs(line) * (along + 1j * np.sqrt(15**2 - along**2))
+    rod, swing = (joint - pin) / 15, (joint - 19) / 10
+    centres = [3 * np.exp(1j * (angles + math.pi / 6)), pin + 9 * rod * np.exp(0.25j * math.pi), 19 + 5 * swing]
+    turned = [angles, np.unwrap(np.angle(rod)), np.unwrap(np.angle(swing))]
+    slopes = (
+        [abs(np.gradient(np.array(place), step)) * INCH for place in centres],
+        [np.gradient(angle, step) for angle in turned],
+    )
+    reduced = sum(m * place**2 + j * angle**2 for m, j, place, angle in zip(masses, inertias, *slopes, strict=True))
+    torque = reduced[2] * -40 + (reduced[3] - reduced[1]) / (2 * step) / 2 * 25**2
+    assert results.value("driving_torque", at=60) == pytest.approx(torque, rel=1e-5)

@@ -532,6 +532,8 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, a
             return MassPerLength(value.value)
         case MeasuredValue():
             return value.value
+        case [MeasuredValue(dimension="length") as distance, MeasuredValue(dimension="angle") as direction]:
+            return [distance.value * math.cos(direction.value), distance.value * math.sin(direction.value)]
         case dict():
             return {name: _plain(item) for name, item in value.items()}
         case list():

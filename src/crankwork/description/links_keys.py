@@ -44,7 +44,8 @@ from crankwork.description.value_types import Choice, Flag, Number, Quantity, Te
 from crankwork.mechanism.driver import LawKind
 from crankwork.shaft.torque_diagram import Shape
 
-_PLACE = ListOf(COORDINATE, fewest=2, most=2)
+# two coordinates, or a distance and its direction
+_PLACE = ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, most=2, first=COORDINATE)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
 _OF_MASS = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "centre": KeySpec(NameOr(_PLACE))}

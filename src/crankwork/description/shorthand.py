@@ -399,7 +399,10 @@ def engine_of(description: Description) -> Machine:
     alone["crank"] = {"speed": "1 rad/s", **alone["crank"]}
     if not OF_LIQUID.isdisjoint(alone.get("gas", {}).get("valves", ())):
         # an engine has valves for gas; those of the liquid are copied as they are stated
-        alone["gas"] = {**alone["gas"], "valves": {"suction": "1 bar", "discharge": "2 bar", "compression_exponent": 1.0}}
+        alone["gas"] = {
+            **alone["gas"],
+            "valves": {"suction": "1 bar", "discharge": "2 bar", "compression_exponent": 1.0},
+        }
     if "engine" in alone:
         alone["engine"] = {key: value for key, value in alone["engine"].items() if key not in OWN_SIZES}
     return Description(alone, description.name, folder=description.folder).machine()
