@@ -71,9 +71,10 @@ class ListOf(NamedTuple):
                 wanted = ErrorMessage("entries_between", fewest=self.fewest, most=self.most)
             reader.add_error(key, ErrorMessage("entries", count=len(value), wanted=wanted))
             return None
-        kinds = [self.first or self.entry] + [self.entry] * (len(value) - 1)
-        entries = enumerate(zip(kinds, value, strict=True), start=1)
-        return [kind.read(entry, f"{key}[{i}]", reader) for i, (kind, entry) in entries]
+        return [
+            ((self.first if i == 1 else None) or self.entry).read(entry, f"{key}[{i}]", reader)
+            for i, entry in enumerate(value, start=1)
+        ]
 
     def _advice(self, key: str, value: object) -> ErrorMessage:
         if isinstance(self.entry, TableSpec):
