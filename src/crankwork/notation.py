@@ -158,6 +158,7 @@ ARGUMENTS: dict[str, Argument] = {
     "F_cl": Argument("clutch_force"),
     "p_cl": Argument("clutch_pressure"),
     "M_cl": Argument("clutch_torque"),
+    "P_cl": Argument("clutch_power"),
     "m_cl": Argument("driving_mass"),
     "k_cl": Argument("driving_gyration_radius"),
     "J_drg": Argument("driving_inertia"),

@@ -43,7 +43,7 @@ _RPM = math.pi / 30
 
 # dimension: {SI size: all spellings}. The first spelling is the suggested one.
 _SPELLINGS: dict[str, list[tuple[float, str]]] = {
-    "angle": [(math.pi / 180, "deg ° градус град độ"), (1.0, "rad рад")],
+    "angle": [(math.pi / 180, "deg ° градус град độ"), (1.0, "rad рад"), (2 * math.pi, "rev об")],
     "length": [(1e-3, "mm мм"), (1e-2, "cm см"), (1.0, "m м"), (0.1, "dm дм"), (1e-6, "um µm μm мкм"),
                (_IN, "in inch"), (_FT, "ft")],
     "area": [(1e-4, "cm2 см2"), (1e-6, "mm2 мм2"), (1.0, "m2 м2"), (_IN**2, "in2"), (_FT**2, "ft2")],
@@ -65,7 +65,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "inertia": [
         (1.0, "kg*m2 kgm2 кг·м²"), (1e-4, "kg*cm2 кг·см²"), (1e-6, "kg*mm2 кг·мм²"), (1e-7, "g*cm2 г·см²"),
         (_LB * _FT**2, "lb*ft2 lbm*ft2"), (_LB * _IN**2, "lb*in2 lbm*in2"), (_SLUG * _FT**2, "slug*ft2 lbf*ft*s2"),
-        (_LBF * _IN, "lbf*in*s2"), (KGF, "kgf*m*s2 kG*m*s2 кгс·м·с2"),
+        (_LBF * _IN, "lbf*in*s2 lb-in-s2 in-lb-s2"), (KGF, "kgf*m*s2 kG*m*s2 кгс·м·с2"),
+        (KGF / 100, "kgf*cm*s2 кгс·см·с2"),
     ],
     "speed": [
         (_RPM, "rpm r/min rev/min 1/min об/мин 1/мин об/хв 1/хв vg/ph vòng/phút vg/phút v/phút v/ph v/p U/min tr/min"),
@@ -73,27 +74,35 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (2 * math.pi, "rev/s r/s rps об/с vg/s vòng/s"), (math.pi / 180, "°/s deg/s град/с độ/s"),
     ],
     "frequency": [(2 * math.pi, "Hz 1/s Гц 1/с")],
-    "angular_acceleration": [(1.0, "rad/s2 рад/с2")],
+    "angular_acceleration": [
+        (1.0, "rad/s2 рад/с2"), (math.pi / 180, "deg/s2 °/s2 град/с2"), (2 * math.pi, "rev/s2 об/с2"), (_RPM, "rpm/s"),
+    ],
     "angular_jerk": [(1.0, "rad/s3 рад/с3")],
     "jerk": [(1.0, "m/s3 м/с3"), (1e-3, "mm/s3 мм/с3"), (_FT, "ft/s3"), (_IN, "in/s3")],
     "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (1 / 3.6, "km/h км/ч"), (_FT, "ft/s"),
-                 (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
-    "acceleration": [(1.0, "m/s2 м/с2"), (1e-3, "mm/s2 мм/с2"), (_FT, "ft/s2"), (_IN, "in/s2")],
+                 (_FT / 60, "ft/min fpm"), (_IN, "in/s"), (1e-2, "cm/s см/с"), (5280 * _FT / 3600, "mph mi/h")],
+    "acceleration": [(1.0, "m/s2 м/с2"), (1e-3, "mm/s2 мм/с2"), (_FT, "ft/s2"), (_IN, "in/s2"),
+                     (1e-2, "cm/s2 см/с2")],
     "pressure": [
         (1e6, "MPa МПа MN/m2 МН/м2 N/mm2 Н/мм2"), (1e9, "GPa ГПа GN/m2 kN/mm2"),
         (1e3, "kPa кПа kN/m2"), (1.0, "Pa Па N/m2"), (1e5, "bar бар"),
         (1e2, "hPa гПа mbar мбар"), (KGF * 1e4, "kgf/cm2 кгс/см2 kG/cm2 kp/cm2 at ат"),
         (133.322387415, "mmHg mm_Hg ммртст мм_рт.ст."), (101325.0 / 760, "Torr торр"), (101325.0, "atm атм"),
-        (KGF, "mmH2O mm_H2O mmWC ммводст мм_вод.ст."), (KGF * 10, "cmH2O cm_H2O cmWC смводст см_вод.ст."),
+        (KGF, "mmH2O mm_H2O mmWC ммводст мм_вод.ст. kgf/m2 кгс/м2"), (KGF * 10, "cmH2O cm_H2O cmWC смводст см_вод.ст."),
         (KGF * 1e3, "mH2O m_H2O mWC мводст м_вод.ст."), (KGF * 25.4, "inH2O in_H2O"),
+        (KGF * 304.8, "ftH2O ft_H2O"), (1333.22387415, "cmHg cm_Hg смртст см_рт.ст."), (3386.388640341, "inHg in_Hg"),
+        (KGF * 1e6, "kgf/mm2 кгс/мм2"), (1e4, "N/cm2 Н/см2"),
         (_LBF / _IN**2, "psi lbf/in2"), (_LBF / _FT**2, "psf lbf/ft2"),
+        (1e3 * _LBF / _IN**2, "ksi"), (1e6 * _LBF / _IN**2, "Mpsi"),
     ],
     "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
-    "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м"), (_LBF / _IN, "lbf/in"), (_LBF / _FT, "lbf/ft")],
+    "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м"), (_LBF / _IN, "lbf/in"), (_LBF / _FT, "lbf/ft"),
+                  (1e2, "N/cm Н/см"), (KGF * 1e2, "kgf/cm кгс/см"), (KGF * 1e3, "kgf/mm кгс/мм"), (KGF, "kgf/m кгс/м")],
     "damping": [
         (1.0, "N*s/m Н·с/м"), (1e3, "kN*s/m N*s/mm кН·с/м"), (_LBF / _IN, "lbf*s/in"), (_LBF / _FT, "lbf*s/ft"),
     ],
-    "angular_damping": [(1.0, "N*m*s/rad N*m*s Н·м·с/рад Н·м·с"), (_LBF * _FT, "lbf*ft*s/rad lbf*ft*s")],
+    "angular_damping": [(1.0, "N*m*s/rad N*m*s Н·м·с/рад Н·м·с"), (_LBF * _FT, "lbf*ft*s/rad lbf*ft*s"),
+                        (_LBF * _IN, "lbf*in*s/rad lbf*in*s")],
     "torsional_stiffness": [
         (1.0, "N*m/rad Н·м/рад"), (1e3, "kN*m/rad кН·м/рад"), (1e6, "MN*m/rad МН·м/рад"), (KGF, "kgf*m/rad кгс·м/рад"),
         (_LBF * _FT, "lbf*ft/rad lb-ft/rad"), (_LBF * _IN, "lbf*in/rad lb-in/rad"),
@@ -106,18 +115,25 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "torque": [
         (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m kG*m кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
         (_LBF * _IN, "lbf*in lb-in"),
+        (1e-3, "N*mm Nmm Н·мм"), (1e-2, "N*cm Ncm Н·см"), (KGF / 100, "kgf*cm кгс·см"), (1e3 * _LBF * _FT, "kip*ft"),
+        (1e3 * _LBF * _IN, "kip*in"),
     ],
     "energy": [
-        (1.0, "J Дж"), (1e3, "kJ кДж"), (1e6, "MJ МДж"), (_LBF * _FT, "ft*lbf ft-lb"), (_LBF * _IN, "in*lbf"),
-        (1055.05585262, "Btu"), (4186.8, "kcal ккал"),
+        (1.0, "J Дж"), (1e3, "kJ кДж"), (1e6, "MJ МДж"), (_LBF * _FT, "ft*lbf ft-lb"), (_LBF * _IN, "in*lbf in-lb"),
+        (1055.05585262, "Btu"), (4186.8, "kcal ккал"), (3.6e6, "kWh kW*h кВт·ч"),
     ],
-    "energy_per_area": [(1e6, "J/mm2 Дж/мм2"), (1e4, "J/cm2 Дж/см2"), (1.0, "J/m2 Дж/м2")],
-    "torque_per_length": [(1e3, "N*m/mm Н·м/мм"), (1e2, "N*m/cm Н·м/см"), (1.0, "N*m/m Н·м/м")],
+    "energy_per_area": [
+        (1e6, "J/mm2 Дж/мм2 N*m/mm2 Н·м/мм2"), (1e4, "J/cm2 Дж/см2 N*m/cm2 Н·м/см2"), (1.0, "J/m2 Дж/м2"),
+        (_LBF * _FT / _IN**2, "ft*lbf/in2 ft-lb/in2"), (_LBF / _IN, "in*lbf/in2 in-lb/in2"),
+        (KGF * 1e6, "kgf*m/mm2 кгс·м/мм2"), (KGF * 1e4, "kgf*m/cm2 кгс·м/см2"), (1e9, "kJ/mm2"), (1e7, "kJ/cm2"),
+    ],
+    "torque_per_length": [(1e3, "N*m/mm Н·м/мм"), (1e2, "N*m/cm Н·м/см"), (1.0, "N*m/m Н·м/м"),
+                          (KGF * 1e3, "kgf*m/mm кгс·м/мм"), (1e6, "kN*m/mm кН·м/мм"), (_LBF * _FT / _IN, "lbf*ft/in")],
     "angle_per_length": [
         (math.pi / 180 * 1e3, "deg/mm °/mm град/мм °/мм"), (math.pi / 180 * 1e2, "deg/cm °/cm град/см"),
-        (1.0, "rad/m рад/м"),
+        (1.0, "rad/m рад/м"), (math.pi / 180 / _IN, "deg/in"),
     ],
-    "temperature": [(1.0, "K К")],
+    "temperature": [(1.0, "K К"), (5 / 9, "degR °R")],
     "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb"),
                         (4186.8, "kcal/kg ккал/кг")],
     "mass_moment": [
@@ -138,7 +154,11 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (_LBF / _IN**3, "psi/in"),
     ],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
-    "specific_heat": [(1.0, "J/(kg*K) Дж/(кг*К)"), (1e3, "kJ/(kg*K) кДж/(кг*К)")],
+    "specific_heat": [
+        (1.0, "J/(kg*K) Дж/(кг*К) J/kg*K J/kgK"), (1e3, "kJ/(kg*K) кДж/(кг*К) kJ/kg*K kJ/kgK"),
+        (4186.8, "kcal/(kg*K) Btu/(lb*R) Btu/lb*R ккал/(кг*К)"), (KGF, "kgf*m/(kg*K) кгс·м/(кг*К)"),
+        (_FT * KGF * 1.8, "ft*lbf/(lb*R) ft*lbf/lb*R"),
+    ],
     "density": [(1.0, "kg/m3 кг/м3"), (1e3, "g/cm3 г/см3"), (_LB / _FT**3, "lb/ft3"), (_LB / _IN**3, "lb/in3")],
     "specific_amount": [(1.0, "kmol/kg кмоль/кг")],
     "molar_mass": [(1.0, "kg/kmol кг/кмоль")],
@@ -150,11 +170,13 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "mass_rate": [
         (1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с"), (1 / 60, "kg/min кг/мин"), (_LB / 3600, "lb/h"),
-        (_LB / 60, "lb/min"),
+        (_LB / 60, "lb/min"), (_LB, "lb/s"), (1e-3, "g/s г/с"),
     ],
     "volume_rate": [
         (1 / 60, "m3/min м3/мин"), (1.0, "m3/s м3/с"), (1 / 3600, "m3/h м3/ч"), (1e-3, "l/s L/s л/с"),
         (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min cfm"), (_FT**3, "ft3/s cfs"),
+        (1e-3 / 3600, "l/h L/h л/ч"), (231 * _IN**3 / 60, "gal(US)/min gpm(US)"),
+        (4.54609e-3 / 60, "gal(UK)/min gpm(UK)"),
     ],
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 Вт/м3")],
     "per_temperature": [(1.0, "1/K 1/К")],
@@ -162,7 +184,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "speed_per_temperature": [(1.0, "m/(s*K) м/(с*К)")],
     "power": [
         (1e3, "kW кВт"), (1.0, "W Вт"), (1e6, "MW МВт"), (75 * KGF, "PS л.с. лс mã_lực hp(M)"),
-        (550 * _LBF * _FT, "hp(I) bhp"), (_LBF * _FT, "ft*lbf/s"),
+        (550 * _LBF * _FT, "hp(I) bhp"), (_LBF * _FT, "ft*lbf/s"), (KGF, "kgf*m/s кгс·м/с"),
     ],
 }  # fmt: skip
 
@@ -206,7 +228,11 @@ def known_unit(name: str) -> str:
     """
     name = unicodedata.normalize("NFC", name.strip())
     spellings_of_name = (name, name.replace(" ", "_"), name.replace(". ", ".").replace(" ", "_"))
-    return next((spelling for spelling in spellings_of_name if spelling in UNITS), "") or _PLAIN.get(_plain(name), "")
+    return next((spelling for spelling in spellings_of_name if spelling in UNITS), "") or next(
+        # books join the factors of a product with a hyphen, N-m
+        (_PLAIN[plain] for text in (name, name.replace("-", "*")) if (plain := _plain(text)) in _PLAIN),
+        "",
+    )
 
 
 _FIRST = {unit: name for name, unit in reversed(UNITS.items())}
@@ -337,6 +363,8 @@ def parse(
         spelling, notice = "PS", "metric_horsepower"
     _ask_which(spelling, dimensions, number, name or "")
     unit = UNITS.get(spelling)
+    if unit is not None and _is_also(unit, spelling) in dimensions and unit.dimension not in dimensions:
+        unit = unit._replace(dimension=_is_also(unit, spelling))
     weighed = _WEIGHTS.get(unit.dimension, "") if unit is not None and unit.dimension not in dimensions else ""
     fits = unit is not None and (unit.dimension in dimensions or weighed in dimensions)
     wanted = tuple(_dimension(dimension) for dimension in dimensions)
@@ -365,6 +393,13 @@ def parse(
         if weighed
         else ParsedQuantity(value, unit.dimension, spelling, notice)
     )
+
+
+def _is_also(unit: Unit, spelling: str) -> str:
+    """Return what else a force by a length measures, work or torque, empty for other units."""
+    if unit.dimension == "energy" and re.search("[*-]lb", spelling):
+        return "torque"
+    return "energy" if unit.dimension == "torque" else ""
 
 
 def _plain_number(text: str) -> str:

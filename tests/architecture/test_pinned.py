@@ -16,9 +16,9 @@ from crankwork.quantities import QUANTITIES
 from rules import every_formula
 
 PINNED = {
-    "symbols": "3be719c08af6",
-    "formulas": "bd43ba84fc48",
-    "quantities": "dfce1c8a571c",
+    "symbols": "1504f419eb08",
+    "formulas": "44847bddb9a7",
+    "quantities": "b57ad93ecfb8",
     "defaults": "59fd6ef75afd",
 }
 

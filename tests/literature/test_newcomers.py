@@ -5,17 +5,23 @@ Delhi 2005, which prints 3.37 Hz and a node 0.855 m from the first flywheel. All
 """
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError
+from crankwork.note.explain import explanation
+from crankwork.report.notices import assumption_texts
+from crankwork.report.summary import values_text
 from each import for_each
 from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere
 
 RPM = math.pi / 30
+LBF, INCH = 4.4482216152605, 0.0254
 
 CELL = """
 format = 2
@@ -187,3 +193,238 @@ def test_a_measured_indicated_power_is_not_overruled_by_the_line() -> None:
 def test_fuel_without_a_line_is_refused(rates: str) -> None:
     with pytest.raises(CrankworkError, match=r"must rise|write 4 of them"):
         analysed(WILLANS.replace('"4 kg/h", "6.1 kg/h", "8 kg/h", "10.1 kg/h"', rates))
+
+
+def test_a_torque_by_the_pressure_of_one_position_needs_no_speed() -> None:
+    """0.6 MPa on 120 mm at 45 degrees past the inner dead centre; arm r (sin q + sin 2q / 2 sqrt(n2 - sin2 q))."""
+    results = analysed("""
+crank.radius = "100 mm"
+rod.length = "400 mm"
+cylinder.bore = "120 mm"
+gas.pressure = "0.6 N/mm2"
+""")
+    force = 0.6e6 * math.pi / 4 * 0.12**2
+    arm = 0.1 * (math.sin(math.pi / 4) + 1 / (2 * math.sqrt(16 - 0.5)))
+    assert results.value("crank_torque", at=45) == pytest.approx(force * arm, rel=1e-12)
+    assert [text for text in assumption_texts(results, "en") if "crank.speed = 1 rad/s" in text]
+
+
+@for_each("mass", ["piston.mass", "rod.mass", "crank.mass"])
+def test_a_mass_needs_a_speed(mass: str) -> None:
+    with pytest.raises(CrankworkError, match=r"crank\.speed: is missing"):
+        analysed(f"""
+crank.radius = "100 mm"
+rod.length = "400 mm"
+cylinder.bore = "120 mm"
+gas.pressure = "0.6 N/mm2"
+{mass} = "2 kg"
+""")
+
+
+def test_weight_and_inertia_take_from_the_pressure_at_an_instant() -> None:
+    """700 kN/m2 on 100 mm, 1.1 kg, 20 degrees past the upper dead centre: by the exact acceleration of a cosine rod."""
+    results = analysed("""
+crank = { stroke = "120 mm", speed = "2000 rpm" }
+rod.length = "250 mm"
+piston.mass = "1.1 kg"
+cylinder = { bore = "100 mm", inclination = "0 deg" }
+gas.pressure = "700 kN/m2"
+method.weights = true
+""")
+    angles = math.radians(20) + np.array([-1, 0, 1]) * 1e-4
+    reach = 0.06 * np.cos(angles) + np.sqrt(0.25**2 - (0.06 * np.sin(angles)) ** 2)
+    inertia = 1.1 * (reach[2] - 2 * reach[1] + reach[0]) / 1e-8 * (2000 * RPM) ** 2
+    force = 700e3 * math.pi / 4 * 0.1**2 + inertia + 1.1 * 9.80665
+    assert results.value("piston_force", at=20) == pytest.approx(force, rel=1e-6)
+
+
+FORCED = """
+fixed_points = { O2 = ["0 in", "0 in"], O4 = ["8 in", "0 in"] }
+crank = { pivot = "O2", pin = "A", radius = "6 in" }
+[links]
+coupler = { joins = ["A", "B"], length = "18 in" }
+rocker = { joins = ["O4", "B"], length = "12 in", points = { Q = ["5 in", "0 in"] } }
+"""
+
+
+@for_each("pull", ['force = "120 lbf"\nangle = "220 deg"', 'x = "-91.925333 lbf"\ny = "-77.134513 lbf"'])
+def test_a_force_in_a_direction_is_held_by_the_crank(pull: str) -> None:
+    """The coupler has two forces alone, along it; its moment about the pivot of the rocker is that of the load."""
+    results = analysed(FORCED + f'[[loads]]\nkind = "force"\npoint = "Q"\n{pull}\n')
+    pin = 6 * np.exp(0.75j * math.pi)
+    line = 8 - pin
+    along = (18**2 - 12**2 + abs(line) ** 2) / (2 * abs(line))
+    joint = pin + line / abs(line) * (along + 1j * math.sqrt(18**2 - along**2))
+    rod, load = (joint - pin) / 18, 120 * np.exp(1j * math.radians(220))
+    held = -((joint - 8).conjugate() * 5 / 12 * load).imag / ((joint - 8).conjugate() * rod).imag
+    torque = (pin.conjugate() * held * rod).imag * LBF * INCH
+    assert results.value("driving_torque", at=135) == pytest.approx(torque, rel=1e-7)
+    assert "Q_x,Q = Q_Q·cos θ" in explanation(results, "driving_torque", at=135) or pull.startswith("x")
+
+
+LADDER = """
+guides = { floor = { through = ["0 m", "0 m"] }, wall = { through = ["0 m", "0 m"], angle = "90 deg" } }
+links.ladder = { joins = ["A", "B"], length = "3 m" }
+sliders = { foot = { pin = "A", guide = "floor" }, head = { pin = "B", guide = "wall" } }
+driver = { slider = "foot", start = "1.5 m", velocity = "2 m/s", acceleration = "1 m/s2" }
+"""
+
+
+def test_a_ladder_slips_at_an_instant() -> None:
+    """x2 + y2 = 9 differentiated twice."""
+    results = analysed(LADDER)
+    height = math.sqrt(9 - 1.5**2)
+    falls = -1.5 * 2 / height
+    assert results.value("slider_velocity.head", at=0) == pytest.approx(falls, rel=1e-12)
+    change = -(2**2 + 1.5 * 1 + falls**2) / height
+    assert results.value("slider_acceleration.head", at=0) == pytest.approx(change, rel=1e-7)
+    assert results.value("link_angular_velocity.ladder", at=0) == pytest.approx(2 / height, rel=1e-12)
+
+
+@for_each(("old", "new", "told"), [
+    ("2 m/s", "2 rad/s", r"driver\.velocity: this driver moves along a line"),
+    ("1 m/s2", "1 rad/s2", r"driver\.acceleration: this driver moves along a line"),
+    ('start = "1.5 m", ', "", r"driver\.start: the law begins nowhere"),
+])  # fmt: skip
+def test_an_instant_is_a_position_and_its_rates(old: str, new: str, told: str) -> None:
+    with pytest.raises(CrankworkError, match=told):
+        analysed(LADDER.replace(old, new))
+
+
+def test_all_values_of_an_instant_are_told_with_their_keys() -> None:
+    """A piston of 4 in at 100 psi: 1256.6 lbf; the side force of a rod at asin(3 sin 60 / 8)."""
+    results = analysed("""
+units = "imperial"
+crank.radius = "3 in"
+rod.length = "8 in"
+cylinder.bore = "4 in"
+gas.pressure = "100 psi"
+""")
+    told = {line.split()[-1]: line.split()[-3:-1] for line in values_text(results, 60).splitlines()}
+    lean = math.asin(3 * math.sin(math.pi / 3) / 8)
+    assert told["gas_force"] == ["1256.64", "lbf"]
+    assert told["side_force"] == [f"{400 * math.pi * math.tan(lean):.6g}", "lbf"]
+    assert told["point_velocity_x.B"][0] == "0"
+    with pytest.raises(CrankworkError, match="no crank angle of 400 deg"):
+        values_text(analysed('crank = { radius = "1 m", speed = "9 rpm" }\nrod.ratio = 0.2'), 400)
+
+
+PUMP = """
+format = 2
+crank = { stroke = "300 mm", speed = "20 rpm" }
+rod.length = "90 m"
+cylinder.bore = "200 mm"
+[gas]
+pressures = "absolute"
+cycle = "360 deg"
+ambient = "10.3 mH2O"
+[gas.valves]
+density = "1000 kg/m3"
+suction_height = "3 m"
+discharge_height = "20 m"
+vapour_pressure = "2.5 mH2O"
+suction_pipe = { length = "8 m", diameter = "100 mm", friction = 0.04 }
+discharge_pipe = { length = "25 m", diameter = "100 mm", friction = 0.04 }
+"""
+
+
+@for_each("written", ["as a crank gear", "as a linkage"])
+def test_a_pump_with_pipes_does_the_work_of_their_friction(written: str, tmp_path: Path) -> None:
+    """With a long rod the plunger moves as a cosine: heads of 23 m, and two thirds of the greatest friction."""
+    file = tmp_path / "pump.toml"
+    file.write_text(PUMP, encoding="utf-8")
+    results = analysed(PUMP if written == "as a crank gear" else expanded(file))
+    gravity, area, speed = 9.80665, math.pi / 4 * 0.2**2, 20 * RPM
+    fastest = 4 * speed * 0.15
+    friction = 0.04 * (8 + 25) / 0.1 * fastest**2 / (2 * gravity)
+    work = 1000 * gravity * area * 0.3 * (23 + 2 / 3 * friction)
+    assert results["mean_torque"] * 2 * math.pi == pytest.approx(work, rel=1e-4)
+    begins = 8 / gravity * 4 * speed**2 * 0.15
+    assert results["acceleration_head.cylinder.suction"] == pytest.approx(begins, rel=2e-3)
+    # half-way there is no acceleration, and the pressure is that of the suction less all friction of its pipe
+    suction = (10.3 - 3) - friction * 8 / 33
+    head = results.value("gas_pressure.cylinder", at=90) / (1000 * gravity) + 10.3
+    assert head == pytest.approx(suction, rel=2e-3)
+    # the forces of an engine, which has no pipes, would be others
+    assert "piston_force" not in results.complete.columns
+
+
+def test_a_point_of_the_coupler_by_its_distance_and_direction() -> None:
+    """7.5 in at 30 degrees from the line of the joints; the pivot of the rocker by distance and direction too."""
+    results = analysed("""
+fixed_points = { O2 = ["0 in", "0 in"], O4 = ["10 in", "-20 deg"] }
+crank = { pivot = "O2", pin = "A", radius = "5 in" }
+[links]
+coupler = { joins = ["A", "B"], length = "8.5 in", points = { P = ["7.5 in", "30 deg"] } }
+rocker = { joins = ["O4", "B"], length = "7 in" }
+""")
+    pin, pivot = 5 * np.exp(1j * math.pi / 3), 10 * np.exp(-1j * math.pi / 9)
+    line = pivot - pin
+    along = (8.5**2 - 7**2 + abs(line) ** 2) / (2 * abs(line))
+    joint = pin + line / abs(line) * (along + 1j * math.sqrt(8.5**2 - along**2))
+    point = (pin + (joint - pin) / 8.5 * 7.5 * np.exp(1j * math.pi / 6)) * INCH
+    assert results.value("point_x.P", at=60) == pytest.approx(point.real, rel=1e-12)
+    assert results.value("point_y.P", at=60) == pytest.approx(point.imag, rel=1e-12)
+
+
+def test_a_clutch_of_a_power_is_pressed_by_its_torque() -> None:
+    """20 kW at 1575 rpm over four faces of 240 and 120 mm, worn evenly."""
+    results = analysed("""
+[clutch]
+faces = 4
+friction = 0.3
+outer_diameter = "240 mm"
+inner_diameter = "120 mm"
+power = "20 kW"
+driving.speed = "1575 rpm"
+""")
+    force = 20e3 / (1575 * RPM) / (4 * 0.3 * 0.09)
+    assert results["clutch_force"] == pytest.approx(force, rel=1e-12)
+    assert results["clutch_pressure"] == pytest.approx(force / (2 * math.pi * 0.06 * 0.06), rel=1e-12)
+
+
+def test_a_four_bar_with_centres_by_distance_and_direction_has_the_torque_of_energy() -> None:
+    """Lengths, masses and accelerations as in R. L. Norton, Design of machinery, ch. 11; by differences of energy."""
+    results = analysed("""
+fixed_points = { O2 = ["0 in", "0 in"], O4 = ["19 in", "0 in"] }
+[crank]
+pivot = "O2"
+pin = "A"
+radius = "5 in"
+speed = "25 rad/s"
+angular_acceleration = "-40 rad/s2"
+mass = "1.5 lb"
+centre = ["3 in", "30 deg"]
+inertia = "0.4 lb-in-s2"
+inertia_about = "centre"
+[links.coupler]
+joins = ["A", "B"]
+length = "15 in"
+mass = "7.7 lb"
+inertia = "1.5 lb-in-s2"
+centre = ["9 in", "45 deg"]
+[links.rocker]
+joins = ["O4", "B"]
+length = "10 in"
+mass = "5.8 lb"
+inertia = "0.8 lb-in-s2"
+centre = ["5 in", "0 deg"]
+""")
+    unit = LBF * INCH
+    masses, inertias = np.array([1.5, 7.7, 5.8]) * 0.45359237, np.array([0.4, 1.5, 0.8]) * unit
+    step = 1e-4
+    angles = math.pi / 3 + np.arange(-2, 3) * step
+    pin = 5 * np.exp(1j * angles)
+    line = 19 - pin
+    along = (15**2 - 10**2 + abs(line) ** 2) / (2 * abs(line))
+    joint = pin + line / abs(line) * (along + 1j * np.sqrt(15**2 - along**2))
+    rod, swing = (joint - pin) / 15, (joint - 19) / 10
+    centres = [3 * np.exp(1j * (angles + math.pi / 6)), pin + 9 * rod * np.exp(0.25j * math.pi), 19 + 5 * swing]
+    turned = [angles, np.unwrap(np.angle(rod)), np.unwrap(np.angle(swing))]
+    slopes = (
+        [abs(np.gradient(np.array(place), step)) * INCH for place in centres],
+        [np.gradient(angle, step) for angle in turned],
+    )
+    reduced = sum(m * place**2 + j * angle**2 for m, j, place, angle in zip(masses, inertias, *slopes, strict=True))
+    torque = reduced[2] * -40 + (reduced[3] - reduced[1]) / (2 * step) / 2 * 25**2
+    assert results.value("driving_torque", at=60) == pytest.approx(torque, rel=1e-5)

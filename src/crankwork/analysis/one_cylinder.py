@@ -21,6 +21,7 @@ from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
     mean_piston_speed,
     relative_offset,
+    time_ratio_of_offset,
     top_dead_centre_angle,
     top_dead_centre_angle_before,
 )
@@ -174,6 +175,7 @@ def _geometry(solved: TracedCylinder) -> dict[str, TracedValue]:
         top = top_dead_centre_angle if lengths.offset > 0 else top_dead_centre_angle_before
         values["top_dead_centre_angle"] = top(*((e, l, r) if lengths.offset > 0 else (math.pi, e, l, r)))
         values["bottom_dead_centre_angle"] = bottom_dead_centre_angle(math.pi, e, l, r)
+        values["time_ratio"] = time_ratio_of_offset(math.pi, e if lengths.offset > 0 else -e, l, r)
     of_cylinder = ("bore", "piston_area", "swept_volume", "clearance_volume", "compression_ratio")
     wanted = (*of_cylinder, "reciprocating_mass", "rotating_mass")
     values |= {key: trace[key] for key in wanted if key in trace and not trace[key].is_absent}

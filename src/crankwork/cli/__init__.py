@@ -590,7 +590,7 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
     """Explain one value of a machine: every step in order, down to the lines of the file."""
     from crankwork.note.explain import explanation, key_lines
 
-    if key is None and not with_keys:
+    if key is None and place is None and not with_keys:
         raise CrankworkError(ErrorMessage("explain_what"))
     # if it is no crank angle, it may be a time of the machine
     angle_or_time = (
@@ -599,6 +599,11 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
         else parse_angle_or_time(place, "time" if options.machine.mechanism.driver.law else "angle")
     )
     results = options.results()
+    if key is None and angle_or_time is not None:
+        from crankwork.report.summary import values_text
+
+        click.echo(values_text(results, angle_or_time, options.language))
+        return
     if key is None or with_keys:
         click.echo("\n".join(key_lines(results.complete, options.language)))
         return

@@ -20,7 +20,7 @@ from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import compression_ratio, piston_area, swept_volume
-from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.indicator import constant_diagram
 from crankwork.loads.measured_pressure import FEWEST
 from crankwork.loads.pressure_processing import PEAKS, centred, peak_angle
 from crankwork.locale import ErrorMessage
@@ -568,7 +568,7 @@ def _motored(values: Values, gas: Gas, reader: Reader) -> Gas | None:
         if motored != _AMBIENT:
             reader.add_error("gas.motored", ErrorMessage("motored_word"))
         pressure = gas.ambient if gas.is_absolute else 0.0
-        points = {"o": DiagramPoint(0.0, pressure), "o'": DiagramPoint(gas.cycle, pressure)}
-        level = replace(gas, points=points, pieces=(Piece("constant", ("o", "o'")),), measured=None, valves=None)
+        points, pieces = constant_diagram(pressure, gas.cycle)
+        level = replace(gas, points=points, pieces=pieces, measured=None, valves=None)
         return replace(level, path="gas.motored")
     return _with_diagram(gas, motored, "gas.motored", table, reader)

@@ -60,14 +60,16 @@ _LOAD = TableSpec("load", {
     "link": KeySpec(NAME, required=("torque",), only={"kind": ("force", "torque")}),
     "between": KeySpec(ListOf(NAME, fewest=2, most=2), only=_BETWEEN),
     "links": KeySpec(ListOf(NAME, fewest=2, most=2), only={"between": ()}),
-    "x": KeySpec(_FORCE, default="0 N", only=_PUSH),
-    "y": KeySpec(_FORCE, default="0 N", only=_PUSH),
+    "x": KeySpec(_FORCE, default="0 N", instead_of=("force",), only=_PUSH),
+    "y": KeySpec(_FORCE, default="0 N", instead_of=("force",), only=_PUSH),
     "against": KeySpec(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
     "file": KeySpec(Text(1000), only=_BY_COLUMN),
     "sheet": SHEET,
     "at": KeySpec(ListOf(NumberOr(Quantity(("length", "angle"), -1e3, 1e3), Number(0.0, 1.0)), 2, from_file=True),
               only=_BY_COLUMN),
-    "force": KeySpec(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
+    "force": KeySpec(ListOf(_FORCE, fewest=1, from_file=True), required=("process",), instead_of=("x", "y"),
+                 only={"kind": ("process", "force")}),
+    "angle": KeySpec(_ANGLE, default="0 deg", only={**_PUSH, "force": ()}),
     "torque": KeySpec(ListOf(TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
     "curve": KeySpec(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
     "stroke": KeySpec(Choice(("growing", "falling")), default="growing", only=_PROCESS),
@@ -793,7 +795,8 @@ DIAGRAM = {
 }
 _OWN = {**DIAGRAM, "valves": KeySpec(VALVES, instead_of=tuple(DIAGRAM))}
 _GAS = TableSpec("gas", {
-    "cycle": KeySpec(Choice(("720 deg", "360 deg")), required=True),
+    "cycle": KeySpec(Choice(("720 deg", "360 deg")), required=True, instead_of=("pressure",)),
+    "pressure": KeySpec(_PRESSURE, instead_of=("cycle", *DIAGRAM, "valves", "cylinders")),
     "ambient": KeySpec(Quantity(("pressure",), 0.0, 1e7), default=AMBIENT, only={"pressures": ("absolute",)}),
     "back_pressure": KeySpec(_PRESSURE),
     "pressures": PRESSURES,
@@ -929,10 +932,12 @@ CLUTCH_FILE = TableSpec("file", {
         "inner_diameter": KeySpec(LENGTH, required=True, only={"outer_diameter": ()}),
         "mean_radius": KeySpec(LENGTH, instead_of=_OF_FACE),
         "cone_angle": KeySpec(Quantity(("angle",), 0.01, math.pi / 2), instead_of=("faces",)),
-        "force": KeySpec(Quantity(("force",), 0.0, 1e9, above=True), instead_of=("pressure", "torque")),
-        "pressure": KeySpec(Quantity(("pressure",), 1.0, 1e9), instead_of=("force", "torque"),
+        "force": KeySpec(Quantity(("force",), 0.0, 1e9, above=True), instead_of=("pressure", "torque", "power")),
+        "pressure": KeySpec(Quantity(("pressure",), 1.0, 1e9), instead_of=("force", "torque", "power"),
                             only={"outer_diameter": ()}),
-        "torque": KeySpec(Quantity(("torque",), 0.0, 1e9, above=True), instead_of=("force", "pressure")),
+        "torque": KeySpec(Quantity(("torque",), 0.0, 1e9, above=True), instead_of=("force", "pressure", "power")),
+        "power": KeySpec(Quantity(("power",), 0.0, 1e9, above=True), instead_of=("force", "pressure", "torque"),
+                         only={"driving": ()}),
         "driving": KeySpec(TableSpec("clutch_shaft", _CLUTCH_SHAFT)),
         "driven": KeySpec(TableSpec("clutch_shaft", _CLUTCH_SHAFT)),
     }), required=True),
@@ -948,12 +953,16 @@ SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
 CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for keys in (MACHINE_FILE, SIZED_FILE))
 
 
-# for engines with loads or friction, whose note is that of a linkage
+# for engines with loads, friction or a liquid, whose note is that of a linkage
+_WITH_LIQUID = _GAS._replace(keys={**_GAS.keys, "valves": _GAS.keys["valves"]._replace(kind=PIPED_VALVES)})
 LOADED_FILE, LOADED_SIZED_FILE = (
-    keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT}) for keys in (MACHINE_FILE, SIZED_FILE)
+    keys._replace(keys={**keys.keys, "document": LINKAGE_DOCUMENT, "gas": keys.keys["gas"]._replace(kind=_WITH_LIQUID)})
+    for keys in (MACHINE_FILE, SIZED_FILE)
 )
 # where an offset is all that is known of the cylinder
 OFFSET_FILE, LOADED_OFFSET_FILE = (
     with_defaults(keys, "cylinder", _CYLINDER, bore=None) for keys in (MACHINE_FILE, LOADED_FILE)
 )
-STARTED_ENGINE = with_defaults(LOADED_FILE, "crank", _CRANK, speed="1 rad/s")
+GIVEN_SPEED = ((MACHINE_FILE, LOADED_FILE), (OFFSET_FILE, LOADED_OFFSET_FILE))
+# where it starts by itself, or where nothing has a mass
+UNIT_SPEED = tuple(tuple(with_defaults(keys, "crank", _CRANK, speed="1 rad/s") for keys in row) for row in GIVEN_SPEED)

@@ -60,7 +60,7 @@ from crankwork.loads.load import (
 from crankwork.loads.valves import Pipe, Valves
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine, TransferTable, Transient
-from crankwork.mechanism.driver import DrivingSlider, Law, LinkMotor, Segment
+from crankwork.mechanism.driver import DrivingSlider, Law, LawKind, LinkMotor, Segment
 from crankwork.mechanism.joints import links_of_points
 from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage, MassPerLength
 from crankwork.mechanism.mechanism import Crank, Mechanism
@@ -80,6 +80,8 @@ _RATES = ("speed", "angular_acceleration", "from", "to")
 _TURNING = ("efficiency", "motor", "motor_selection", "flywheel", "transient")
 _WITHOUT_DRIVER = ("speed", "angular_acceleration")
 _SUM = 1e-9
+# how long a motion is followed of which one instant is asked about [s]
+_INSTANT = 1e-3
 _OWN_PRESSURE = ("pressure", "points", "pieces", "measured", "valves", "cycle")
 _AMOUNTS = ("mean_pressure", "pressure", "mass")
 
@@ -382,7 +384,10 @@ def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader)
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_ends"))
     if len(set(load["between"] or "  x")) < 2:
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_twice", point=load["between"][0]))
-    _check_table(key, load, reader)
+    if load["kind"] == "force" and len(load["force"]) > 1:
+        reader.add_error(f"{key}.force", ErrorMessage("entries", count=len(load["force"]), wanted=1))
+    else:
+        _check_table(key, load, reader)
     if linkage is not None:
         _check_names(key, load, linkage, reader)
     return not any(problem.key.startswith(key) for problem in reader.problems)
@@ -483,8 +488,12 @@ def _load(load: Values) -> Load:
                 load["slider"], _curve(load, "force"), load["against"],
                 -1 if load["stroke"] == "falling" else 1, load.si("start") or 0.0, load["acts"],
             )  # fmt: skip
+        case "force" if "force" in load:
+            size, direction = load["force"][0].value, load.si("angle")
+            x, y = size * math.cos(direction), size * math.sin(direction)
+            return ForceOnPoint(load["point"], x, y, load["link"] or "", (size, direction))
         case "force":
-            return load.made(ForceOnPoint, link=load["link"] or "")
+            return load.made(ForceOnPoint, link=load["link"] or "", polar=None)
         case "torque":
             return TorqueOnLink(load["link"], _curve(load, "torque"))
         case "damper" if "slider" in load:
@@ -523,6 +532,8 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, a
             return MassPerLength(value.value)
         case MeasuredValue():
             return value.value
+        case [MeasuredValue(dimension="length") as distance, MeasuredValue(dimension="angle") as direction]:
+            return [distance.value * math.cos(direction.value), distance.value * math.sin(direction.value)]
         case dict():
             return {name: _plain(item) for name, item in value.items()}
         case list():
@@ -581,6 +592,8 @@ def build_law(values: Values, reader: Reader) -> Law | None:
     driver = values["driver"]
     wanted = "length" if {"slider", "cylinder"} & set(driver) else "angle"
     places = [_place(driver, "start", "driver.start", wanted, reader)]
+    if "velocity" in driver:
+        return _law_of_instant(driver, places[0], wanted, reader)
     segments = [(number, segment) for number, segment in enumerate(driver["law"], start=1) if segment is not None]
     for number, segment in segments:
         places.append(_end(segment, number, places, wanted, reader))
@@ -614,6 +627,28 @@ def build_law(values: Values, reader: Reader) -> Law | None:
         for (_, segment), to, time in zip(segments, filled[1:], times, strict=True)
     )  # fmt: skip
     return Law(made, period, filled[0], has_jerk=driver["jerk"] or False)
+
+
+def _law_of_instant(driver: Values, start: float | None, wanted: str, reader: Reader) -> Law | None:
+    """Return the law of a constant acceleration from a position and its velocity there, over a short time."""
+    kinds = ("velocity", "acceleration") if wanted == "length" else ("speed", "angular_acceleration")
+    rates = [driver["velocity"], driver["acceleration"]]
+    for key, rate, kind in zip(("velocity", "acceleration"), rates, kinds, strict=True):
+        if rate is not None and rate.dimension != kind:
+            name = "speed" if key == "velocity" else key
+            reader.add_error(f"driver.{key}", ErrorMessage(f"driver_{name}_{wanted}"))
+    if start is None and not reader.has_errors("driver.start"):
+        reader.add_error("driver.start", ErrorMessage("driver_start"))
+    if start is None or reader.problems:
+        return None
+    velocity, acceleration = (0.0 if rate is None else rate.value for rate in rates)
+    period = driver.si("period") or _INSTANT
+    end = start + velocity * period + acceleration * period**2 / 2
+    if end == start:
+        reader.add_error("driver.velocity", ErrorMessage("law_stands"))
+        return None
+    moved: LawKind = "constant-acceleration" if acceleration else "constant"
+    return Law((Segment(moved, end, 1.0, rates=(velocity, None)),), period, start, has_jerk=bool(driver["jerk"]))
 
 
 def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:

@@ -44,7 +44,8 @@ from crankwork.description.value_types import Choice, Flag, Number, Quantity, Te
 from crankwork.mechanism.driver import LawKind
 from crankwork.shaft.torque_diagram import Shape
 
-_PLACE = ListOf(COORDINATE, fewest=2, most=2)
+# two coordinates, or a distance and its direction
+_PLACE = ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, most=2, first=COORDINATE)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
 _OF_MASS = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "centre": KeySpec(NameOr(_PLACE))}
@@ -105,7 +106,9 @@ _DRIVER = TableSpec("driver", {
     "rod": KeySpec(_HALF),
     "between": KeySpec(ListOf(NAME, fewest=2, most=2)),
     "start": KeySpec(_COORDINATE_OF_DRIVER),
-    "law": KeySpec(ListOf(_SEGMENT, fewest=1, most=100), required=True),
+    "law": KeySpec(ListOf(_SEGMENT, fewest=1, most=100), required=True, instead_of=("velocity",)),
+    "velocity": KeySpec(_RATE_OF_DRIVER, instead_of=("law",)),
+    "acceleration": KeySpec(Quantity(("acceleration", "angular_acceleration"), -1e6, 1e6), only={"velocity": ()}),
     "period": KeySpec(TIME),
     "jerk": KeySpec(Flag()),
 })  # fmt: skip
@@ -309,7 +312,7 @@ LINKAGE_FILE = TableSpec("file", {
     "table": KeySpec(TABLE),
 })  # fmt: skip
 
-STARTED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
+UNIT_SPEED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
 _OF_CRANKSHAFT = ("stages", "vessels", "shaft", "bearings", "balance")

@@ -20,14 +20,14 @@ from crankwork.description.build import SIZES, build_clutch, build_machine, buil
 from crankwork.description.keys import (
     CLUTCH_FILE,
     FORMATS,
-    LOADED_FILE,
     LOADED_SIZED_FILE,
     LOADING,
-    MACHINE_FILE,
     METHOD,
     OWN_SIZES,
+    PIPED_VALVES,
     SIZED_FILE,
     TEST_FILE,
+    VALVES,
     stated_document,
 )
 from crankwork.description.links_keys import (
@@ -37,10 +37,10 @@ from crankwork.description.links_keys import (
     PRESS_FILE,
     ROTOR_FILE,
     STAGES_FILE,
-    STARTED_FILE,
     TORSION_FILE,
     TRANSFER_FILE,
     TURNING_FILE,
+    UNIT_SPEED_FILE,
 )
 from crankwork.description.measured_build import add_questions, in_file
 from crankwork.description.schema import (
@@ -71,10 +71,11 @@ from crankwork.units import TO_LATIN
 from crankwork.working_cycle.schools import SCHOOLS
 
 TEMPLATES = "description/templates"
-_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE, engine_files.OFFSET_FILE)
+_UNLOADED, _WITH_LOADS = zip(*engine_files.GIVEN_SPEED, *engine_files.UNIT_SPEED, strict=True)
+_ENGINES = (*_UNLOADED, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE)
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
-_LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE, engine_files.LOADED_OFFSET_FILE)
-_LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
+_LOADED = (*_WITH_LOADS, LOADED_SIZED_FILE)
+_LINKAGES = (LINKAGE_FILE, UNIT_SPEED_FILE, DRIVEN_FILE, *_TABULATED)
 _ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE, CLUTCH_FILE)
 FILES = (*_ENGINES, *_LOADED, *_LINKAGES, *_ALONE)
 _MAX_PARTS = 8
@@ -87,6 +88,13 @@ _WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
     ("stages", (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle"), STAGES_FILE),
     ("torsion", (*_OF_LINKAGES, "rod", "piston", "cylinder", "engine", "gas", "cycle", "torque", "load"), TORSION_FILE),
 )
+OF_LIQUID = PIPED_VALVES.keys.keys() - VALVES.keys.keys()
+# what needs a speed: inertia, damping, and work of the gas in a time
+_OF_SPEED = frozenset((
+    "mass", "crosshead_mass", "small_end_mass", "big_end_mass", "inertia", "pieces", "measured", "valves", "damping",
+    "cycle", "engine", "charges", "stages", "vessels", "balance", "torsion", "motor", "motor_selection", "flywheel",
+    "test", "angular_acceleration",
+))  # fmt: skip
 # a name, and numbers of entries where it is a list
 _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
 # a text of a template by its key, and a comment that consists of it
@@ -278,7 +286,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
     from crankwork.description.shorthand import has_own_sizes, key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
 
     if not machine.method.is_exact:
-        stated = next((key for key in LOADING if key in values), "engine")
+        stated = next((key for key in (*LOADING, "engine") if key in values), "gas.valves")
         reader.add_error("method.kinematics", ErrorMessage("loaded_exact", method=machine.method.name, key=stated))
         return None
     own = Reader(**reader.options)
@@ -289,7 +297,8 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
     notices += machine.engine.notices if machine.engine is not None else ()
-    if "loads" in values or has_own_sizes(values):
+    has_liquid = machine.gas is not None and machine.gas.valves is not None and machine.gas.valves.density is not None
+    if "loads" in values or has_own_sizes(values) or has_liquid:
         # the forces of the engine alone would be other ones
         notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance", "torsion") if name in values]
         return replace(linkage, stated=machine.stated, notices=tuple(notices))
@@ -356,10 +365,14 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
     crank = values.get("crank")
-    is_started = "transient" in values and isinstance(crank, dict) and "speed" not in crank
+    has_no_speed = isinstance(crank, dict) and "speed" not in crank and ("transient" in values or _is_massless(values))
     if any(name in values for name in _OF_LINKAGES):
-        return DRIVEN_FILE if "driver" in values else STARTED_FILE if is_started else LINKAGE_FILE
+        return DRIVEN_FILE if "driver" in values else UNIT_SPEED_FILE if has_no_speed else LINKAGE_FILE
     cycle, cylinder, is_loaded = values.get("cycle"), values.get("cylinder"), not LOADING.keys().isdisjoint(values)
+    gas = values.get("gas")
+    if isinstance(gas, dict) and isinstance(valves := gas.get("valves"), dict):
+        # a liquid is that of a chamber
+        is_loaded = is_loaded or not OF_LIQUID.isdisjoint(valves)
     is_calculated = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
     is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
     stated = cylinder if isinstance(cylinder, dict) else ()
@@ -369,10 +382,15 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
     if is_alone:
         return engine_files.CYCLE_FILE
-    if is_started:
-        return engine_files.STARTED_ENGINE
-    with_offset = (engine_files.OFFSET_FILE, engine_files.LOADED_OFFSET_FILE)
-    return ((MACHINE_FILE, LOADED_FILE), with_offset)[set(stated) == {"offset"}][is_loaded]
+    kinds = engine_files.UNIT_SPEED if has_no_speed else engine_files.GIVEN_SPEED
+    return kinds[set(stated) == {"offset"}][is_loaded]
+
+
+def _is_massless(values: object) -> bool:
+    """Return whether no force and no power of a mechanism depends on its speed: there are only lengths and loads."""
+    if isinstance(values, dict):
+        return values.keys().isdisjoint(_OF_SPEED) and all(map(_is_massless, values.values()))
+    return all(map(_is_massless, values)) if isinstance(values, list) else True
 
 
 def parse(source: str, name: str) -> dict[str, Any]:

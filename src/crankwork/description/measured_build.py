@@ -19,7 +19,7 @@ from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import TracedValue, given
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.indicator import DiagramPoint, Piece, constant_diagram
 from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing, plausible_units
 from crankwork.loads.pressure_processing import QUESTIONS
 from crankwork.loads.valves import Pipe, Valves, discharge_of_height, suction_of_height
@@ -338,15 +338,19 @@ def build_gas(values: Values | None, cylinder: Cylinder | None, reader: Reader) 
     _check_gas(values, cylinder, reader)
     _check_rod(values, cylinder, reader)
     diagram = build_diagram(values, "gas", reader)
-    if "cycle" not in values:
+    if {"cycle", "pressure"}.isdisjoint(values):
         return None
+    cycle = float(values["cycle"].split()[0]) if "cycle" in values else 360.0
+    if "pressure" in values:
+        points, pieces = constant_diagram(values.si("pressure"), cycle)
+        diagram = diagram._replace(points=points, pieces=pieces)
     is_absolute = pressures_of(values, diagram.measured) == "absolute"
     valves = build_valves(values, "gas", reader)
     if valves is not None:
         volumes = (cylinder.clearance_volume, cylinder.compression_ratio) if cylinder is not None else ()
         diagram = with_valves(diagram, valves, has_clearance=any(volumes))
     return Gas(
-        cycle=float(values["cycle"].split()[0]),
+        cycle=cycle,
         **diagram._asdict(),
         valves=valves,
         is_absolute=is_absolute,
@@ -396,7 +400,7 @@ def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 def check_parts(values: Values, path: str, reader: Reader) -> None:
     """Report points without laws, and laws without points."""
-    for key in ("points", "pieces") if {"measured", "valves"}.isdisjoint(values) else ():
+    for key in ("points", "pieces") if {"measured", "valves", "pressure"}.isdisjoint(values) else ():
         if key not in values and not reader.has_errors(f"{path}.{key}", f"{path}.measured", f"{path}.valves"):
             reader.add_error(f"{path}.{key}", ErrorMessage(f"gas_{key}", path=path))
 

@@ -42,6 +42,7 @@ class ListOf(NamedTuple):
     fewest: int = 0
     most: int = _MAX_ENTRIES
     from_file: bool = False
+    first: ValueType | None = None  # Of the first entry, where others may be of more kinds
 
     @property
     def may_be_one(self) -> bool:
@@ -70,7 +71,10 @@ class ListOf(NamedTuple):
                 wanted = ErrorMessage("entries_between", fewest=self.fewest, most=self.most)
             reader.add_error(key, ErrorMessage("entries", count=len(value), wanted=wanted))
             return None
-        return [self.entry.read(entry, f"{key}[{i}]", reader) for i, entry in enumerate(value, start=1)]
+        return [
+            ((self.first if i == 1 else None) or self.entry).read(entry, f"{key}[{i}]", reader)
+            for i, entry in enumerate(value, start=1)
+        ]
 
     def _advice(self, key: str, value: object) -> ErrorMessage:
         if isinstance(self.entry, TableSpec):

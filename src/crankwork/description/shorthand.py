@@ -13,7 +13,7 @@ from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.document import Description, load
 from crankwork.description.keys import CHAMBER_CYCLE, LOADING, OF_LINKAGE, OWN_SIZES
-from crankwork.description.machine_file import apply_settings, file_keys, idle_keys, read, with_first_sizes
+from crankwork.description.machine_file import OF_LIQUID, apply_settings, file_keys, idle_keys, read, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.table_file import resolve_file_columns
 from crankwork.description.toml_edit import TomlPositions, key_text, toml, with_value
@@ -322,7 +322,7 @@ def _stated(table: Mapping[str, Any], gas: Gas, number: int) -> dict[str, Any]:
     """Return the diagram of a cylinder as stated, or the pressure of a cylinder that stays open."""
     counted = {key: table[key] for key in _COUNTED if key in table}
     diagram: Any = functools.reduce(lambda inner, name: inner[name], gas.path.split(".")[1:], table)
-    if isinstance(diagram, str):
+    if isinstance(diagram, str) or "pressure" in diagram:
         return counted | {"pressure": _unit(gas.points["o"].pressure or 0.0, "Pa")}
     if gas.measured is not None:
         counted["pressures"] = "absolute" if gas.is_absolute else "gauge"
@@ -397,6 +397,12 @@ def engine_of(description: Description) -> Machine:
     left_out = {*LOADING, "document"}
     alone = {key: value for key, value in with_first_sizes(description.values, Reader()).items() if key not in left_out}
     alone["crank"] = {"speed": "1 rad/s", **alone["crank"]}
+    if not OF_LIQUID.isdisjoint(alone.get("gas", {}).get("valves", ())):
+        # an engine has valves for gas; those of the liquid are copied as they are stated
+        alone["gas"] = {
+            **alone["gas"],
+            "valves": {"suction": "1 bar", "discharge": "2 bar", "compression_exponent": 1.0},
+        }
     if "engine" in alone:
         alone["engine"] = {key: value for key, value in alone["engine"].items() if key not in OWN_SIZES}
     return Description(alone, description.name, folder=description.folder).machine()

@@ -293,3 +293,11 @@ def top_dead_centre_angle_before(pi: Value, e: Value, l: Value, r: Value) -> Val
 def bottom_dead_centre_angle(pi: Value, e: Value, l: Value, r: Value) -> Value:  # noqa: E741
     """Crank angle of bottom dead centre, rod over crank."""
     return pi + np.arcsin(e / (l - r))
+
+
+@formula("time_ratio", "artobolevsky_1988, ch. 4")
+def time_ratio_of_offset(pi: Value, e: Value, l: Value, r: Value) -> Value:  # noqa: E741
+    """Crank angle of the slower stroke over that of the faster one, by the size of the offset."""
+    return (pi + np.arcsin(e / (l - r)) - np.arcsin(e / (l + r))) / (
+        pi - np.arcsin(e / (l - r)) + np.arcsin(e / (l + r))
+    )

@@ -27,6 +27,7 @@ from crankwork.formula.traced_value import (
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.kinematic_coefficients import slider_velocity
 from crankwork.kinematics.motion import Motion, broadcast, centre_of_mass
+from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction
 from crankwork.kinematics.traced_motion import angle_of, interpolant_of
 from crankwork.loads.applied_loads import (
     AppliedForce,
@@ -80,6 +81,7 @@ class ForceOnPoint:
     x: float
     y: float
     link: str = ""  # The link it acts on; empty for the first of the links that meet there
+    polar: tuple[float, float] | None = None  # Size and direction from the x axis, where these are stated [N], [rad]
 
 
 @dataclass(frozen=True)
@@ -160,6 +162,11 @@ def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion, pat
     if is_traced(motion.grid.angle):
         x, y = ((f"load_{axis}.{load.point}", f"{path}.{axis}") for axis in "xy")
         force = given(x[0], load.x, x[1]), given(y[0], load.y, y[1])
+        if load.polar is not None:
+            size = given(f"load_size.{load.point}", load.polar[0], f"{path}.force")
+            direction = given(f"link_angle.{load.point}.load", load.polar[1], f"{path}.angle")
+            along = size * cosine_of_direction(direction), size * sine_of_direction(direction)
+            force = named(along[0], x[0]), named(along[1], y[0])
     return force_at(mechanism, motion, load.point, force, load.link)
 
 

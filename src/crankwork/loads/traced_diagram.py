@@ -28,7 +28,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads.curves import CurvePoint, cubic_between, curve_between, monotone_slopes
 from crankwork.loads.gas import gauge_pressure, polytropic_pressure
-from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment
+from crankwork.loads.indicator import CONSTANT, DiagramPoint, IndicatorDiagram, Piece, Segment
 from crankwork.loads.valves import StatedValves
 
 # A stated volume within this tolerance is the computed volume.
@@ -121,7 +121,8 @@ def _law(diagram: IndicatorDiagram, segment: Segment, volume: TracedValue, state
     match segment.law:
         case "constant":
             name, pressure = segment.origin, float(segment.pressures[0])
-            place = f"{path}.points.{_stated(name)}.pressure"
+            is_alone = (name, len(diagram.segments)) == (CONSTANT[0].points[0], 1)
+            place = f"{path}.pressure" if is_alone else f"{path}.points.{_stated(name)}.pressure"
             plain = given(_of("diagram_pressure", owner, name), pressure, place)
             return segment.operands[0] if segment.operands else plain
         case "polytropic":
@@ -298,7 +299,8 @@ class _DiagramTracer:
 
     def _pressure(self, name: str) -> TracedValue:
         if name not in self._pressures:
-            pressure, path = self._source.points[name].pressure, f"{self._source.path}.points.{name}.pressure"
+            point = "" if self._source.pieces == CONSTANT else f".points.{name}"
+            pressure, path = self._source.points[name].pressure, f"{self._source.path}{point}.pressure"
             self._pressures[name] = given("diagram_pressure", pressure or 0.0, path)
         return self._pressures[name]
 

@@ -57,7 +57,7 @@ WHEEL_SIZES = (
 _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _GEOMETRY = (
     "crank_radius", "rod_length", "rod_ratio", "relative_offset", "stroke", "top_dead_centre_angle",
-    "bottom_dead_centre_angle",
+    "bottom_dead_centre_angle", "time_ratio",
 )  # fmt: skip
 _SPEED = ("speed", "mean_piston_speed")
 _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")

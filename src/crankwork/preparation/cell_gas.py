@@ -15,7 +15,7 @@ import numpy as np
 
 from crankwork.formula.traced_value import Input, TracedValue, in_order
 from crankwork.loads.chamber import Chamber
-from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.indicator import constant_diagram
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Gas, Machine
 from crankwork.mechanism.cells import Cell, NoCellsError, crank_cells
@@ -139,8 +139,7 @@ def gas_of(name: str, chamber: Chamber, cycle: float, crank_end: Chamber | None)
     path = f"chambers.{name}"
     points, pieces = chamber.points, chamber.pieces
     if chamber.pressure is not None:
-        points = {"o": DiagramPoint(0.0, chamber.pressure), "o'": DiagramPoint(cycle, chamber.pressure)}
-        pieces = (Piece("constant", ("o", "o'")),)
+        points, pieces = constant_diagram(chamber.pressure, cycle)
     behind = 0.0 if crank_end is None else (crank_end.pressure or 0.0) - crank_end.ambient
     return Gas(
         cycle=cycle,

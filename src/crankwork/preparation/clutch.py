@@ -14,6 +14,7 @@ _QUANTITIES = {
     "faces": "friction_faces", "friction": "clutch_friction", "outer_diameter": "clutch_outer_diameter",
     "inner_diameter": "clutch_inner_diameter", "mean_radius": "clutch_radius", "cone_angle": "cone_angle",
     "force": "clutch_force", "pressure": "clutch_pressure", "torque": "clutch_torque",
+    "power": "clutch_power",
 }  # fmt: skip
 _OF_SIDE = {"torque": "load", "radius_of_gyration": "gyration_radius"}
 

@@ -72,6 +72,9 @@ def _check_expressible(machine: Machine, *, has_all: bool) -> None:
         "sliders": machine.crossheads,
         "vessels": machine.vessels,
         "links": machine.redundant,
+        "chambers.valves.density": [
+            name for name, chamber in machine.chambers.items() if chamber.valves is not None and chamber.valves.density
+        ],
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,
     }
     if has_all:

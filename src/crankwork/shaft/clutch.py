@@ -80,6 +80,12 @@ def power_of_clutch(M_cl: Value, w_drg: Value) -> Value:
     return M_cl * w_drg
 
 
+@formula("clutch_torque", _TEXT)
+def torque_at_power(P_cl: Value, w_drg: Value) -> Value:
+    """Torque of a power that the clutch transmits without slip."""
+    return P_cl / w_drg
+
+
 @formula("driving_inertia", _TEXT)
 def inertia_of_side(m_cl: Value, k_cl: Value) -> Value:
     """Moment of inertia of a shaft with all that turns with it."""
@@ -138,8 +144,8 @@ def work_clutch(worked: Calculation, contact: str, pi: float) -> None:
     """Work all that follows from what is known of a clutch and of its shafts."""
     known = worked.known
     friction = (torque_of_cone, force_of_cone) if "cone_angle" in known else (torque_of_plates, force_of_plates)
-    rules = [*_FACES[contact], *friction, power_of_clutch]
-    if not known.keys().isdisjoint(("clutch_torque", "clutch_force", "clutch_pressure")):
+    rules = [torque_at_power, *_FACES[contact], *friction, power_of_clutch]
+    if not known.keys().isdisjoint(("clutch_torque", "clutch_force", "clutch_pressure", "clutch_power")):
         closing = closing_of_both if "driving_inertia" in known else closing_at_one_speed
         rules += [closing, slip_time, engaged_speed, heat_of_slip]
     elif known["driving_load"].is_absent and known["driven_load"].is_absent:
