@@ -6,8 +6,8 @@ import math
 
 from crankwork.errors import GeometryError
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Guide, Point
-from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
+from crankwork.mechanism.dyads import RPP, RPR, RRP, RRR, Branch, Guide, Point
+from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
 
 
 def four_bar(
@@ -187,38 +187,4 @@ def toggle_press(crank: float, rod: float, upper: float, lower: float, pivot: Po
             RRP("knee", "ram_pin", "lower", lower, guide_point=pivot, guide_angle=-math.pi / 2, block="ram"),
         ),
         ground={"upper_pivot": pivot},
-    )
-
-
-def slotted_press() -> Mechanism:
-    """Return the press of a Russian course project: crank, rod, slotted rocker, block and punch.
-
-    The document gives the lengths of crank, rod and rocker and a table of transfer functions, not the positions
-    of the pivots: pivot distance, start in the outer dead position and line of the punch are those that fit
-    the table best.
-
-    Returns
-    -------
-    Mechanism
-        Links `rod` and `rocker`, sliding pieces `block` and `punch`, masses of the document.
-    """
-    crank, rod, rocker, ground = 0.05, 0.6, 0.21, 0.632
-    reach = rod + crank
-    start = math.acos((reach**2 + ground**2 - rocker**2) / (2 * reach * ground))
-    distance, normal = 0.2013, math.radians(100.4)
-    foot = (ground + distance * math.cos(normal), distance * math.sin(normal))
-    return Mechanism(
-        Crank(crank, start=start, direction=-1),
-        (
-            RRR("crank_pin", "rocker_pivot", "rocker_pin", "rod", "rocker", rod, rocker),
-            PRP("punch_pin", "block", "punch", Guide(link="rocker"), Guide(foot, normal - math.pi / 2)),
-        ),
-        bodies=(
-            body_at("rod", 255.1, 7.653, "rod_centre"),
-            body_at("block", 81.6, 0.0, "punch_pin"),
-            body_at("punch", 102.0, 0.0, "punch_pin"),
-            body_at("rocker", 153.1, 153.1 * rocker**2 / 12, "rocker_centre"),
-        ),
-        ground={"rocker_pivot": (ground, 0.0)},
-        points=(LinkPoint("rod_centre", "rod", rod / 2), LinkPoint("rocker_centre", "rocker", rocker / 2)),
     )
