@@ -20,6 +20,12 @@ IDENTITIES = re.compile(r'class="entry" id="([^"]+)"')
 SAID = re.compile(r'<p class="entry-said">(.*?)</p>')
 
 
+def without(title, written):
+    """Return the entries of a page that have no fact of some title."""
+    entries = written.split('<div class="entry" id="')[1:]
+    return [entry.partition('"')[0] for entry in entries if f"<dt>{title}</dt><dd>" not in entry]
+
+
 @for_each("language", LANGUAGES)
 def test_every_key_has_an_entry_with_a_sentence_and_an_example(language):
     written = "\n".join(text for _, text in key_pages.pages(language))
@@ -76,6 +82,7 @@ def test_every_command_and_option_has_an_entry(language):
         if option.param_type_name == "option"
     }
     assert options <= set(IDENTITIES.findall(written))
+    assert without(command_pages.WORDS[language]["example"], written) == []
     assert command_pages.without_sentence() == []
 
 
