@@ -30,6 +30,7 @@ def options_of(line: str) -> set[str]:
 
 
 def options(command: click.Command) -> Iterator[click.Option]:
+    """Yield the options of a command, `--help` among them."""
     for parameter in command.get_params(click.Context(command)):
         if isinstance(parameter, click.Option):
             yield parameter
