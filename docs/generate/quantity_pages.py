@@ -58,8 +58,7 @@ def quantity_entry(quantity: Quantity, language: Language, owners: Mapping[str, 
     words = WORDS[language]
     key, example = owners.get(quantity.key, ("", ""))
     owner = words["of_machine"] if key and not key_of(key).owner else ""
-    if key and not owner:
-        owner = text(words["owner_example"].format(example=f"`{key}`", file=f"`{example}`"))
+    shown = text(words["owner_example"].format(example=f"`{key}`", file=f"`{example}`")) if key else ""
     sign = _SIGN.search(quantity.definition)
     note = f" <i>({words['definition_language']})</i>" if words["definition_language"] else ""
     said = f"<strong>{text(capital(quantity.label(language)))}.</strong> {text(sentence(quantity.definition))}{note}"
@@ -71,6 +70,7 @@ def quantity_entry(quantity: Quantity, language: Language, owners: Mapping[str, 
         (words["per_area"], text(printed_unit(quantity.per_area_unit, language)) if quantity.metric_per_area else ""),
         (words["sign"], text(sign[0]) if sign else ""),
         (words["owner"], owner),
+        (words["example"], shown),
         (words["formula"], "<br>".join(equations) or text(words["no_formula"])),
     ]
     return entry(quantity.key, quantity.key, said, facts)

@@ -106,6 +106,8 @@ def test_files_of_keys_alone_are_analysed_and_hold_together(files):
 def test_every_quantity_has_an_entry_with_a_sentence():
     written = "\n".join(text for _, text in quantity_pages.pages("ru", {}))
     assert set(IDENTITIES.findall(written)) == {row.key for rows in SUBJECTS.values() for row in rows}
+    for title in ("unit_shown", "si", "symbol"):
+        assert without(quantity_pages.WORDS["ru"][title], written) == []
     assert quantity_pages.without_name() == []
 
 
