@@ -29,9 +29,9 @@ ROOT = Path(__file__).parents[2]
 WORDS = tomllib.loads((Path(__file__).parent / "words.toml").read_text(encoding="utf-8"))
 # where examples of keys are looked for, the plainest files first
 KEY_EXAMPLES = Path(__file__).parent / "key_examples"
-_FOLDERS = ("examples", "tests/machines", "tests/literature/assignments", "docs/generate/key_examples", "tests/golden")
+_FOLDERS = ("examples", "tests/machines", "docs/generate/key_examples", "tests/literature/assignments", "tests/golden")
 _EXPANDED = ("narrow-v6", "petrol-four", "radial-five", "slider-crank")
-_LONGEST_EXAMPLE = 90
+_LONGEST_EXAMPLE, _LONGEST_TABLE = 90, 400
 _ADDED = ", changed"
 
 
@@ -105,7 +105,7 @@ def tables() -> dict[str, Table]:
 
 @functools.cache
 def examples() -> Mapping[tuple[str, str], tuple[str, str]]:
-    """Return each key as some file states it, and the name of that file: the plainest, of tables the shortest."""
+    """Return each key as some file states it, and the name of that file: the plainest that is not too long."""
     found: dict[tuple[str, str], tuple[str, str]] = {}
 
     def walk(spec: TableSpec, values: Mapping[str, Any], file: str) -> None:
@@ -117,7 +117,7 @@ def examples() -> Mapping[tuple[str, str], tuple[str, str]]:
             if below is not None and len(written) > _LONGEST_EXAMPLE:
                 written = _in_lines(f"{tables()[spec.name].places[0]}.{key}".lstrip("."), key, value)
             known, _ = found.get((spec.name, key), ("", ""))
-            if not known or len(written) < len(known) > (_LONGEST_EXAMPLE if below is None else 0):
+            if not known or len(written) < len(known) > (_LONGEST_EXAMPLE if below is None else _LONGEST_TABLE):
                 found[spec.name, key] = written, file
             for inside in _inside(value, below[1]) if below else ():
                 walk(below[1], inside, file)
