@@ -25,7 +25,9 @@ def names() -> list[str]:
 
 def _stands_alone(path: Path) -> bool:
     """Return whether a file is a machine and names no other file."""
-    return path.name != "changes.toml" and not re.search(r"^(\[vary\]|[^#\n]*\bfile = )", path.read_text("utf-8"), re.MULTILINE)
+    return path.name != "changes.toml" and not re.search(
+        r"^(\[vary\]|[^#\n]*\bfile = )", path.read_text("utf-8"), re.MULTILINE
+    )
 
 
 def analysed(name: str) -> crankwork.Results:
