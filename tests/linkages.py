@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -12,13 +13,14 @@ from crankwork.mechanism.catalog import (
     crank_shaper,
     four_bar,
     scotch_yoke,
-    slotted_press,
     stephenson_six_bar,
     toggle_press,
     watt_six_bar,
     whitworth,
 )
 from crankwork.mechanism.decomposition import mechanism_of
+from crankwork.mechanism.dyads import PRP, RRR, Guide
+from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
 from crankwork.mechanism.table_reader import linkage_from
 
 
@@ -81,6 +83,38 @@ CARRIED = {
     "guides": {"line": {"link": "rod", "angle": 0.4}, "slot": {"link": "yoke", "angle": 1.3}},
     "sliders": {"yoke": {"guide": "line"}, "block": {"pin": "E", "guide": "slot"}},
 }
+
+
+def slotted_press():
+    """Return the press of a Russian course project: crank, rod, slotted rocker, block and punch.
+
+    The document gives the lengths of crank, rod and rocker and a table of transfer functions, not the positions
+    of the pivots: pivot distance, start in the outer dead position and line of the punch are those that fit
+    the table best.
+
+    Links `rod` and `rocker`, sliding pieces `block` and `punch`, masses of the document.
+    """
+    crank, rod, rocker, ground = 0.05, 0.6, 0.21, 0.632
+    reach = rod + crank
+    start = math.acos((reach**2 + ground**2 - rocker**2) / (2 * reach * ground))
+    distance, normal = 0.2013, math.radians(100.4)
+    foot = (ground + distance * math.cos(normal), distance * math.sin(normal))
+    return Mechanism(
+        Crank(crank, start=start, direction=-1),
+        (
+            RRR("crank_pin", "rocker_pivot", "rocker_pin", "rod", "rocker", rod, rocker),
+            PRP("punch_pin", "block", "punch", Guide(link="rocker"), Guide(foot, normal - math.pi / 2)),
+        ),
+        bodies=(
+            body_at("rod", 255.1, 7.653, "rod_centre"),
+            body_at("block", 81.6, 0.0, "punch_pin"),
+            body_at("punch", 102.0, 0.0, "punch_pin"),
+            body_at("rocker", 153.1, 153.1 * rocker**2 / 12, "rocker_centre"),
+        ),
+        ground={"rocker_pivot": (ground, 0.0)},
+        points=(LinkPoint("rod_centre", "rod", rod / 2), LinkPoint("rocker_centre", "rocker", rocker / 2)),
+    )
+
 
 FIRST = four_bar(0.05, 0.2, 0.12, 0.18)
 

@@ -24,10 +24,9 @@ from crankwork.analysis.motion_range import full_turn_bounds
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.cli.__init__ import studio
-from crankwork.cli.options import parse_count
+from crankwork.cli.options import DoubtfulError, parse_count
 from crankwork.description.machine_file import template
 from crankwork.description.shorthand import expanded
-from crankwork.errors import DoubtfulError
 from crankwork.formula.traced_value import given
 from crankwork.kernel.grid import with_delayed_breakpoints
 from crankwork.loads import curves, pressure_processing

@@ -18,9 +18,9 @@ SUBJECTS = {
     "Many designs": ("solve", "Solution", "solve_several", "SeveralSolutions", "spread", "Spreads", "sweep", "Swept",
                      "optimise", "Optimum"),
     "Mechanisms": ("Mechanism", "Motion", "CrankGrid", "MotionLaw", "Segment", "Law", "four_bar", "crank_shaper",
-                   "scotch_yoke", "slotted_press", "stephenson_six_bar", "toggle_press", "watt_six_bar", "whitworth"),
+                   "scotch_yoke", "stephenson_six_bar", "toggle_press", "watt_six_bar", "whitworth"),
     "Loads of one's own": ("AppliedLoads", "LoadLaw", "force_at"),
-    "Errors": ("CrankworkError", "DoubtfulError", "GeometryError", "InputError", "MethodError", "MissingExtraError",
+    "Errors": ("CrankworkError", "GeometryError", "InputError", "MethodError", "MissingExtraError",
                "RenamedKeyWarning", "UnknownKeyError"),
 }  # fmt: skip
 

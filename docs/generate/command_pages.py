@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator
+from pathlib import Path
 
 import click
 
@@ -13,7 +15,22 @@ from html_text import code, entry, raw, sentence, text
 from key_pages import WORDS
 
 
-def _parameters(command: click.Command) -> Iterator[click.Option]:
+def examples(command: str = "") -> list[str]:
+    """Return the lines that show commands at work, in the order in which they can be carried out."""
+    lines = (Path(__file__).parent / "command_examples.txt").read_text(encoding="utf-8").splitlines()
+    return [line for line in lines if line.startswith(f"crankwork {command}")]
+
+
+def options_of(line: str) -> set[str]:
+    """Return the options that a line of a command has, by their longest names."""
+    _, name, *words = shlex.split(line)
+    command = commands.commands[name]
+    *_, given = command.make_parser(click.Context(command)).parse_args(words)
+    return {parameter.opts[-1] for parameter in given if isinstance(parameter, click.Option)}
+
+
+def options(command: click.Command) -> Iterator[click.Option]:
+    """Yield the options of a command, `--help` among them."""
     for parameter in command.get_params(click.Context(command)):
         if isinstance(parameter, click.Option):
             yield parameter
@@ -35,9 +52,11 @@ def _option_entry(command: str, option: click.Option, language: Language) -> str
     name = ", ".join(option.opts) + (f" {option.make_metavar(click.Context(commands))}" if not option.is_flag else "")
     shown = option.default if isinstance(option.default, str | int) and not isinstance(option.default, bool) else ""
     choices = option.type.choices if isinstance(option.type, click.Choice) else ()
+    example = next((line for line in examples(command) if option.opts[-1] in options_of(line)), "")
     facts = [
         (words["option_values"], ", ".join(map(code, choices))),
         (words["default"], code(shown) if shown != "" else ""),
+        (words["example"], code(example) if example else ""),
     ]
     said = text(sentence(option_text(command, option, language)))
     return entry(f"{command}{option.opts[-1]}", name, said, facts, words["required"] if option.required else "")
@@ -49,8 +68,10 @@ def page(language: Language) -> str:
     parts = [f"# {words['commands_title']}\n\n{words['commands_intro']}\n"]
     for name, command in sorted(commands.commands.items()):
         parts.append(f"## `crankwork {name}`\n\n{translate(f'help.command_{name}', language)}\n")
-        options = (_option_entry(name, option, language) for option in _parameters(command))
-        parts.append(raw([f"<p>{words['usage']}: {code(_usage(command))}</p>", *options]))
+        entries = (_option_entry(name, option, language) for option in options(command))
+        parts.append(raw([f"<p>{words['usage']}: {code(_usage(command))}</p>"]))
+        parts.append("```sh\n" + "\n".join(examples(name)) + "\n```\n")
+        parts.append(raw(entries))
     return "\n".join(parts)
 
 
@@ -60,7 +81,7 @@ def without_sentence() -> list[str]:
         f"{language}: {name} {option.opts[-1]}": option_text(name, option, language)
         for language in LANGUAGES
         for name, command in commands.commands.items()
-        for option in _parameters(command)
+        for option in options(command)
     } | {
         f"{language}: {name}": translate(f"help.command_{name}", language)
         for language in LANGUAGES

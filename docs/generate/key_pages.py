@@ -15,9 +15,11 @@ from pathlib import Path
 from typing import Any
 
 from crankwork.description import schema as types
+from crankwork.description.document import load
 from crankwork.description.keys import ColumnKey, Date, FigureName, Figures, Section
 from crankwork.description.machine_file import FILES, file_keys, template, template_names
 from crankwork.description.schema import DefaultBy, KeySpec, MapOf, TableSpec
+from crankwork.description.shorthand import expanded
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text, UnitOf
 from crankwork.locale import LANGUAGES, Language, translate
 from crankwork.study.study_file import STUDY_FILE, As
@@ -26,8 +28,11 @@ from html_text import code, entry, raw, sentence, text
 ROOT = Path(__file__).parents[2]
 WORDS = tomllib.loads((Path(__file__).parent / "words.toml").read_text(encoding="utf-8"))
 # where examples of keys are looked for, the plainest files first
-_FOLDERS = ("examples", "tests/machines", "tests/literature/assignments", "tests/golden")
-_LONGEST_EXAMPLE = 90
+KEY_EXAMPLES = Path(__file__).parent / "key_examples"
+_FOLDERS = ("examples", "tests/machines", "docs/generate/key_examples", "tests/literature/assignments", "tests/golden")
+_EXPANDED = ("narrow-v6", "petrol-four", "radial-five", "slider-crank")
+_LONGEST_EXAMPLE, _LONGEST_TABLE = 90, 400
+_ADDED = ", changed"
 
 
 @dataclass
@@ -100,7 +105,7 @@ def tables() -> dict[str, Table]:
 
 @functools.cache
 def examples() -> Mapping[tuple[str, str], tuple[str, str]]:
-    """Return a value of each key as some file states it, and the name of that file."""
+    """Return each key as some file states it, and the name of that file: the plainest that is not too long."""
     found: dict[tuple[str, str], tuple[str, str]] = {}
 
     def walk(spec: TableSpec, values: Mapping[str, Any], file: str) -> None:
@@ -108,18 +113,27 @@ def examples() -> Mapping[tuple[str, str], tuple[str, str]]:
             if key not in spec.keys:
                 continue
             below = inner_table(spec.keys[key].kind)
-            if below is None:
-                written = _toml(value)
-                if len(written) <= _LONGEST_EXAMPLE:
-                    found.setdefault((spec.name, key), (f"{key} = {written}", file))
-                continue
-            for inside in _inside(value, below[1]):
+            written = f"{key} = {_toml(value)}"
+            if below is not None and len(written) > _LONGEST_EXAMPLE:
+                written = _in_lines(f"{tables()[spec.name].places[0]}.{key}".lstrip("."), key, value)
+            known, _ = found.get((spec.name, key), ("", ""))
+            if not known or len(written) < len(known) > (_LONGEST_EXAMPLE if below is None else _LONGEST_TABLE):
+                found[spec.name, key] = written, file
+            for inside in _inside(value, below[1]) if below else ():
                 walk(below[1], inside, file)
 
-    for file, written in _files():
+    for file, written in (*_files(), *_expanded(), *changed()):
         values = tomllib.loads(written)
         walk(STUDY_FILE if "vary" in values else file_keys(values), values, file)
     return found
+
+
+def _in_lines(place: str, key: str, value: Any) -> str:  # noqa: ANN401 - what a file has there
+    """Return a table or a list of tables with a line for each of its keys or entries."""
+    if isinstance(value, list):
+        return "\n".join([f"{key} = [", *(f"  {_toml(item)}," for item in value), "]"])
+    head = f"[{key if '[]' in place else place}]"
+    return "\n".join([head, *(f"{name} = {_toml(item)}" for name, item in value.items())])
 
 
 def _toml(value: Any) -> str:  # noqa: ANN401 - what a file has there
@@ -147,62 +161,41 @@ def _is_deep(value: object) -> bool:
     return isinstance(value, dict | list)
 
 
+def _expanded() -> Iterator[tuple[str, str]]:
+    """Yield examples as the linkages that they are, with every default written down."""
+    for name in _EXPANDED:
+        yield f"crankwork check examples/{name}.toml --expand", expanded(ROOT / "examples" / f"{name}.toml")
+
+
+def changed() -> Iterator[tuple[str, str]]:
+    """Yield files of the repository to which keys are added that no file states."""
+    for change in tomllib.loads((KEY_EXAMPLES / "changes.toml").read_text(encoding="utf-8"))["changed"]:
+        description = load(ROOT / change["file"])
+        description.replace(dict(_leaves(change["to"])))
+        yield f"{change['file']}{_ADDED}", description.dump()
+
+
+def _leaves(values: Mapping[str, Any], place: str = "") -> Iterator[tuple[str, Any]]:
+    for key, value in values.items():
+        if isinstance(value, dict):
+            yield from _leaves(value, f"{place}{key}.")
+        else:
+            yield place + key, value
+
+
 def _files() -> Iterator[tuple[str, str]]:
     """Yield name and text of machine files and study files."""
     yield from ((f"crankwork new {name}", template(name)) for name in template_names())
     for folder in _FOLDERS:
         for path in sorted((ROOT / folder).rglob("*.toml")):
             written = path.read_text(encoding="utf-8")
-            if path.name != "changed.toml":
+            if path.name not in ("changed.toml", "changes.toml"):
                 yield path.relative_to(ROOT).as_posix(), written
 
 
 def example(table: Table, key: str) -> tuple[str, str]:
-    """Return an example of a key and the file that has it; one made up has no file."""
-    if known := examples().get((table.name, key)):
-        return known
-    specs = table.keys[key]
-    if any(inner_table(spec.kind) for spec in specs):
-        return "", ""
-    stated = next((spec.default for spec in specs if isinstance(spec.default, str | int | float | bool)), None)
-    return f"{key} = {_made_up(specs[0].kind) if stated is None else json.dumps(stated, ensure_ascii=False)}", ""
-
-
-def _made_up(kind: Any) -> str:  # noqa: ANN401, C901, PLR0912 - one case per kind
-    """Return a value that a key may have."""
-    match kind:
-        case Quantity():
-            schema = kind.schema("en")
-            number, _, unit = schema["examples"][0].partition(" ")
-            least = schema.get("minimum", schema.get("exclusiveMinimum"))
-            return json.dumps(f"{min(max(float(number), least), schema['maximum']):g} {unit}", ensure_ascii=False)
-        case Number():
-            return kind.example()
-        case Choice() | Section() | UnitOf():
-            return json.dumps(kind.options[0], ensure_ascii=False)
-        case Flag():
-            return "true"
-        case Date():
-            return '"2026-05-31"'
-        case FigureName():
-            return '"torque"'
-        case Figures():
-            return '{ forces = ["piston_force", "side_force"] }'
-        case types.ListOf() | types.Nested():
-            return f"[{', '.join([_made_up(kind.entry)] * max(1, getattr(kind, 'fewest', 1)))}]"
-        case types.OneOrMore() | types.OneForAll():
-            return _made_up(kind.entry)
-        case types.NumberOr() | types.InertiaKind():
-            return _made_up(kind.quantity)
-        case types.WordOr():
-            return _made_up(kind.words)
-        case MapOf():
-            return f"{{ A = {_made_up(kind.entry)} }}"
-        case As():
-            return '"50 mm"' if kind.types[0] == "string" else '["50 mm", "60 mm"]'
-        case Text() | types.NameOr():
-            return '"A"'
-    return _made_up(Number(kind.schema("en")["minimum"], kind.schema("en")["maximum"], whole=True))
+    """Return an example of a key as a file has it, and the name of that file; empty texts for none."""
+    return examples().get((table.name, key), ("", ""))
 
 
 def kind_text(kind: Any, language: Language) -> str:  # noqa: ANN401, C901, PLR0912 - one case per kind
@@ -306,9 +299,9 @@ def key_entry(table: Table, key: str, language: Language) -> str:
     """Return the entry of a key."""
     words, specs = WORDS[language], table.keys[key]
     stated, file = example(table, key)
-    shown = code(stated) if stated else ""
-    if file:
-        shown += f" ({text(words['from_file'].format(file=f'`{file}`'))})"
+    shown = f"<pre>{code(stated)}</pre>" if "\n" in stated else code(stated)
+    origin = words["added_to_file" if file.endswith(_ADDED) else "from_file"]
+    shown += f" ({text(origin.format(file=f'`{file.removesuffix(_ADDED)}`'))})"
     facts = [
         (words["kind"], _different(kind_text(spec.kind, language) for spec in specs)),
         (words["default"], _different(_default(spec, language) for spec in specs)),

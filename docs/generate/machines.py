@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import crankwork
+import key_pages
 from crankwork.formula.traced_value import in_order
 from crankwork.quantities import base_key
 from crankwork.quantities.key import key_of
@@ -14,15 +16,26 @@ _TEMPLATE = "crankwork new "
 
 
 def names() -> list[str]:
-    """Return the files of examples and test machines, and the commands that write templates."""
-    files = [path for folder in ("examples", "tests/machines") for path in sorted((ROOT / folder).glob("*.toml"))]
-    return [*(path.relative_to(ROOT).as_posix() for path in files), *map(_TEMPLATE.__add__, crankwork.template_names())]
+    """Return the files of examples and test machines, commands that write templates, and what shows keys."""
+    folders = ("examples", "tests/machines", "docs/generate/key_examples")
+    files = [path for folder in folders for path in sorted((ROOT / folder).glob("*.toml")) if _stands_alone(path)]
+    templates = map(_TEMPLATE.__add__, crankwork.template_names())
+    return [*(path.relative_to(ROOT).as_posix() for path in files), *templates, *dict(key_pages.changed())]
+
+
+def _stands_alone(path: Path) -> bool:
+    """Return whether a file is a machine and names no other file."""
+    return path.name != "changes.toml" and not re.search(
+        r"^(\[vary\]|[^#\n]*\bfile = )", path.read_text("utf-8"), re.MULTILINE
+    )
 
 
 def analysed(name: str) -> crankwork.Results:
     """Return the results of a machine."""
     if name.startswith(_TEMPLATE):
         return crankwork.analyse(crankwork.read_machine(crankwork.template(name.removeprefix(_TEMPLATE))))
+    if name in (changed := dict(key_pages.changed())):
+        return crankwork.analyse(crankwork.Description(changed[name]))
     return crankwork.analyse(crankwork.read(ROOT / name))
 
 
@@ -30,7 +43,8 @@ def keys_of(results: crankwork.Results) -> dict[str, str]:
     """Return the plainest key of each quantity in results; one that has an owner tells most."""
     found: dict[str, str] = {}
     traced = (value.key for value in in_order(results.trace.values()))
-    for key in (*results, *filter(None, traced)):
+    listed = (key for listing in results.listings.values() for key in listing.columns)
+    for key in (*results, *filter(None, traced), *listed):
         quantity = base_key(key)
         found[quantity] = max(found.get(quantity, key), key, key=_tells)
     return found

@@ -55,7 +55,7 @@ def _machines() -> dict[str, dict[str, str]]:
     gallery, interactive = SOURCE / "gallery", SOURCE / "interactive"
     gallery.mkdir()
     interactive.mkdir()
-    examples = [name for name in machines.names() if name.startswith("examples/")]
+    examples = [name for name in machines.names() if re.fullmatch(r"examples/.*\.toml", name)]
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as processes:
         written = {name: processes.submit(example_pages.write, name, gallery, interactive) for name in examples}
         others = {name: processes.submit(machines.keys_of_machine, name) for name in machines.names()

@@ -56,8 +56,7 @@ def quantity_entry(quantity: Quantity, language: Language, owners: Mapping[str, 
     words = WORDS[language]
     key, example = owners.get(quantity.key, ("", ""))
     owner = words["of_machine"] if key and not key_of(key).owner else ""
-    if key and not owner:
-        owner = text(words["owner_example"].format(example=f"`{key}`", file=f"`{example}`"))
+    shown = text(words["owner_example"].format(example=f"`{key}`", file=f"`{example}`")) if key else ""
     definition = quantity.definition(language)
     sign = re.search(words["sign_in_definition"], definition)
     said = f"<strong>{text(capital(quantity.label(language)))}.</strong> {text(sentence(definition))}"
@@ -69,6 +68,7 @@ def quantity_entry(quantity: Quantity, language: Language, owners: Mapping[str, 
         (words["per_area"], text(printed_unit(quantity.per_area_unit, language)) if quantity.metric_per_area else ""),
         (words["sign"], text(sign[0]) if sign else ""),
         (words["owner"], owner),
+        (words["example"], shown),
         (words["formula"], "<br>".join(equations) or text(words["no_formula"])),
     ]
     return entry(quantity.key, quantity.key, said, facts)

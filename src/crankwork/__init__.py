@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from crankwork.description.machine_file import json_schema, read, read_machine, template, template_names
     from crankwork.errors import (
         CrankworkError,
-        DoubtfulError,
         GeometryError,
         InputError,
         MethodError,
@@ -40,7 +39,6 @@ if TYPE_CHECKING:
         crank_shaper,
         four_bar,
         scotch_yoke,
-        slotted_press,
         stephenson_six_bar,
         toggle_press,
         watt_six_bar,
@@ -67,14 +65,14 @@ _MODULES = {
     "analysis.compare": "Comparison compare",
     "description.document": "Description load",
     "description.machine_file": "json_schema read read_machine template template_names",
-    "errors": """CrankworkError DoubtfulError GeometryError InputError MethodError MissingExtraError RenamedKeyWarning
+    "errors": """CrankworkError GeometryError InputError MethodError MissingExtraError RenamedKeyWarning
                  UnknownKeyError""",
     "kinematics.crank_grid": "CrankGrid",
     "kinematics.motion": "Motion",
     "loads.applied_loads": "AppliedLoads force_at",
     "loads.load": "LoadLaw",
     "machine": "Machine",
-    "mechanism.catalog": """crank_shaper four_bar scotch_yoke slotted_press stephenson_six_bar toggle_press
+    "mechanism.catalog": """crank_shaper four_bar scotch_yoke stephenson_six_bar toggle_press
                             watt_six_bar whitworth""",
     "mechanism.driver": "Law MotionLaw Segment",
     "mechanism.mechanism": "Mechanism",
@@ -98,7 +96,6 @@ __all__ = [
     "CrankGrid",
     "CrankworkError",
     "Description",
-    "DoubtfulError",
     "GeometryError",
     "InputError",
     "Law",
@@ -135,7 +132,6 @@ __all__ = [
     "read",
     "read_machine",
     "scotch_yoke",
-    "slotted_press",
     "solve",
     "solve_several",
     "spread",

@@ -30,10 +30,6 @@ class MethodError(CrankworkError):
     """A method that is not defined for the machine."""
 
 
-class DoubtfulError(CrankworkError):
-    """Results that are inconsistent or incomplete."""
-
-
 class UnknownKeyError(CrankworkError, KeyError):
     """A key that results do not have; the text names the closest existing key."""
 

@@ -18,6 +18,7 @@ import pytest
 
 import crankwork
 from crankwork.loads.load import Spring, force_at
+from linkages import LINKAGES
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -139,6 +140,27 @@ def test_a_machine_of_plain_values_is_checked_as_a_file() -> None:
     values["rod"] = {"length": "20 mm"}
     with pytest.raises(crankwork.InputError, match="rod"):
         crankwork.analyse(crankwork.Description(values))
+
+
+@pytest.mark.elsewhere
+def test_a_mechanism_of_the_catalogue_is_a_machine() -> None:
+    """The rocker by Freudenstein's equation (1955), the yoke with an inclined slot by the law of sines."""
+    crank, coupler, rocker, ground = 0.05, 0.2, 0.12, 0.18
+    results = crankwork.analyse(crankwork.Machine(crankwork.four_bar(crank, coupler, rocker, ground), 10.0))
+    phi, psi = results["crank_angle"], results["link_angle.rocker"]
+    third = (crank**2 - coupler**2 + rocker**2 + ground**2) / (2 * crank * rocker)
+    freudenstein = ground / crank * np.cos(psi) - ground / rocker * np.cos(phi) + third
+    assert np.allclose(freudenstein, np.cos(phi - psi), rtol=0, atol=1e-12)
+    yoke = crankwork.analyse(crankwork.Machine(crankwork.scotch_yoke(crank, 1.1), 10.0))
+    moved, speed = (trigonometry(phi) / np.sin(1.1) * crank for trigonometry in
+                    (lambda angle: np.sin(1.1 - angle), lambda angle: -10.0 * np.cos(1.1 - angle)))  # fmt: skip
+    assert np.allclose(yoke["slider_displacement.yoke"], moved, rtol=0, atol=1e-15)
+    assert np.allclose(yoke["slider_velocity.yoke"], speed, rtol=0, atol=1e-13)
+
+
+def test_a_mechanism_that_no_dyads_make_is_refused_with_the_way_that_works() -> None:
+    with pytest.raises(crankwork.CrankworkError, match="from its machine file only"):
+        crankwork.analyse(crankwork.Machine(LINKAGES["class III"], 10.0))
 
 
 def test_objects_are_refused_as_files_are() -> None:

@@ -12,11 +12,12 @@ from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import ForceOnPoint, ProcessForce, TorqueOnLink, Weight, applied_loads
-from crankwork.mechanism.catalog import crank_shaper, scotch_yoke, slotted_press
+from crankwork.mechanism.catalog import crank_shaper, scotch_yoke
 from crankwork.mechanism.dyads import RPP, RRP, Guide
 from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
 from each import for_each
+from linkages import slotted_press
 
 pytestmark = pytest.mark.elsewhere
 

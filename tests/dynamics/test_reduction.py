@@ -9,9 +9,10 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import body_motions, linkage_motion
 from crankwork.loads.applied_loads import NO_LOADS
 from crankwork.loads.load import ForceOnPoint, TorqueOnLink, Weight, applied_loads
-from crankwork.mechanism.catalog import four_bar, scotch_yoke, slotted_press, watt_six_bar
+from crankwork.mechanism.catalog import four_bar, scotch_yoke, watt_six_bar
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
 from each import for_each
+from linkages import slotted_press
 
 pytestmark = pytest.mark.elsewhere
 

@@ -10,8 +10,8 @@ import pytest
 
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.mechanism.catalog import slotted_press
 from each import for_each
+from linkages import slotted_press
 
 PRINTED = {
     "rod_centre": [0.025, 0.032, 0.046, 0.05, 0.043, 0.031, 0.025, 0.037, 0.045, 0.05, 0.046, 0.036],

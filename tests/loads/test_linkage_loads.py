@@ -21,9 +21,10 @@ from crankwork.loads.load import (
     Weight,
     applied_loads,
 )
-from crankwork.mechanism.catalog import crank_shaper, four_bar, slotted_press
+from crankwork.mechanism.catalog import crank_shaper, four_bar
 from crankwork.mechanism.mechanism import Crank, Mechanism, body_at
 from each import for_each
+from linkages import slotted_press
 from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere

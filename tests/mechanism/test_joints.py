@@ -1,7 +1,8 @@
-from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke, slotted_press, watt_six_bar
+from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke, watt_six_bar
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.joints import Pin, SlidingJoint, group_links, joints, links_of_points
 from crankwork.mechanism.mechanism import Mechanism, slider_crank
+from linkages import slotted_press
 
 
 def shown(mechanism: Mechanism) -> list[str]:

@@ -1,5 +1,6 @@
 """Mobility, Assur groups, formula of structure, and what is wrong with a linkage."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -9,11 +10,12 @@ import linkages
 from crankwork.description.machine_file import read
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.mechanism.decomposition import linkage_of, mechanism_of
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.structure import mobility, structure
 from crankwork.mechanism.table_reader import linkage_from
 from each import for_each
-from linkages import SHAPER, mechanism_from
+from linkages import LINKAGES, SHAPER, mechanism_from
 from motions import changed
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -216,3 +218,18 @@ def test_a_cylinder_is_two_links_of_which_its_driver_makes_one():
     found, _ = structure(read(EXAMPLES / "excavator-boom.toml").linkage)
     assert found.links == ("cylinder", "cylinder_rod", "boom")
     assert found.formula == "I(1,2) -> II(1+2,3)"
+
+
+@for_each("name", [name for name in LINKAGES if name != "class III"])
+def test_a_mechanism_is_that_of_the_linkage_that_it_is(name):
+    mechanism = LINKAGES[name]
+    back, problems = mechanism_of(linkage_of(mechanism))
+    assert problems == []
+    for part in ("driver", "ground", "bars"):
+        assert getattr(back, part) == getattr(mechanism, part)
+    for part in ("bodies", "points"):
+        assert set(getattr(back, part)) == set(getattr(mechanism, part))
+    # the link of a slot is not used, and read only where it is drawn
+    assert [re.sub(r"(?<=slot=)(.*?)link='\w*'", r"\1", repr(dyad)) for dyad in back.dyads] == [
+        re.sub(r"(?<=slot=)(.*?)link='\w*'", r"\1", repr(dyad)) for dyad in mechanism.dyads
+    ]

@@ -35,7 +35,6 @@ from crankwork.mechanism.catalog import (
     crank_shaper,
     four_bar,
     scotch_yoke,
-    slotted_press,
     stephenson_six_bar,
     toggle_press,
     watt_six_bar,
@@ -45,7 +44,7 @@ from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Chain, Dyad, Guid
 from crankwork.mechanism.joints import SlidingJoint, group_links, joints
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at, slider_crank
 from each import for_each
-from linkages import mechanism_from
+from linkages import mechanism_from, slotted_press
 
 pytestmark = pytest.mark.elsewhere
 

@@ -18,6 +18,7 @@ from crankwork.errors import CrankworkError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
+from crankwork.mechanism.decomposition import linkage_of
 from crankwork.method import EXACT, Method
 from crankwork.preparation.prepared import Notice
 
@@ -74,7 +75,7 @@ def analyse(
         raise CrankworkError(ErrorMessage("object_machine", value=type(machine).__name__))
     if not isinstance(method, Method | str | None):
         raise CrankworkError(ErrorMessage("object_method", value=type(method).__name__))
-    machine = machine if isinstance(machine, Machine) else machine.machine()
+    machine = _with_linkage(machine if isinstance(machine, Machine) else machine.machine())
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method
     used = method or machine.method
@@ -85,6 +86,13 @@ def analyse(
     notices = (*stated, *results.notices, *implausible(results))
     results = replace(results, notices=notices, in_other_form=other)
     return results if engine is None else _located(results, machine)
+
+
+def _with_linkage(machine: Machine) -> Machine:
+    """Return a machine, made of a mechanism alone, with the linkage that this is."""
+    if machine.moves or machine.transfer is not None or machine.alone:
+        return machine
+    return replace(machine, linkage=linkage_of(machine.mechanism))
 
 
 def _engine_of(machine: Machine, method: Method) -> Machine | None:

@@ -455,8 +455,14 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"links\..+\.mass", _idle_place_of_mass),
     (r"sliders\..+\.inertia", lambda results, _, path: "" if _turns(results, _part(path)) else "never_turns"),
-    (r"friction\.circle", lambda results, *_: "" if any(
-        isinstance(law, PinFriction) and law.coefficient for law in results.machine.friction) else "no_rubbing_pin"),
+    (
+        r"friction\.circle",
+        lambda results, *_: (
+            ""
+            if any(isinstance(law, PinFriction) and law.coefficient for law in results.machine.friction)
+            else "no_rubbing_pin"
+        ),
+    ),
     (r"(torque|load)\.(period|rate)", _idle_period),
     (r"(torque|load)\.strokes\[\d+\]\.(shape|peak)", _idle_shape),
     (r"balance\.rotating_share", _idle_share),

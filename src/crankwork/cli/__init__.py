@@ -32,6 +32,7 @@ from crankwork.cli.options import (
     STEP,
     SYSTEM,
     CommonOptions,
+    DoubtfulError,
     LocalizedGroup,
     analyse_with_progress,
     drawing_ending,
@@ -45,7 +46,6 @@ from crankwork.cli.options import (
 )
 from crankwork.errors import (
     CrankworkError,
-    DoubtfulError,
     InputError,
     MissingExtraError,
     RenamedKeyWarning,

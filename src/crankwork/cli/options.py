@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from crankwork.errors import CrankworkError, DoubtfulError, MethodError, MissingExtraError, missing_extras
+from crankwork.errors import CrankworkError, MethodError, MissingExtraError, missing_extras
 from crankwork.locale import LANGUAGES, ErrorMessage, Language, has_text, translate
 from crankwork.progress import progress_bar
 
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 Decorator = Callable[[Callable[..., None]], Callable[..., None]]
 _MAX_METHODS = 6
+
+
+class DoubtfulError(CrankworkError):
+    """Results that are inconsistent or incomplete: they are printed and written, and the command ends with 1."""
 
 
 def language_of_system() -> Language:

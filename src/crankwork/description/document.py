@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import datetime as dt
 import functools
 import math
 import numbers
@@ -226,8 +227,8 @@ def _plain(key: str, value: Any) -> Any:  # noqa: ANN401 - what a program may se
         return {str(name): _plain(key, item) for name, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(key, item) for item in value]
-    if isinstance(value, str | bool):
-        return value
+    if isinstance(value, str | bool | dt.date):
+        return value if isinstance(value, str | bool) else str(value)
     if isinstance(value, numbers.Real) and math.isfinite(value):
         return int(value) if isinstance(value, numbers.Integral) else float(value)
     raise CrankworkError(ErrorMessage("value_kind", key=str(key)[:60]))

@@ -6,8 +6,8 @@ import math
 
 from crankwork.errors import GeometryError
 from crankwork.locale import ErrorMessage
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Guide, Point
-from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
+from crankwork.mechanism.dyads import RPP, RPR, RRP, RRR, Branch, Guide, Point
+from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
 
 
 def four_bar(
@@ -21,6 +21,8 @@ def four_bar(
 ) -> Mechanism:
     """Return a four-bar linkage, its fixed link on the x axis, the crank turning anticlockwise from it.
 
+    Points `crank_pin`, `coupler_pin`, `rocker_pivot`, links `coupler` and `rocker`.
+
     Parameters
     ----------
     crank, coupler, rocker, ground : float
@@ -29,11 +31,6 @@ def four_bar(
         1 if the coupler pin lies on the left on the way from the crank pin to the rocker pivot.
     coupler_point : tuple of float, optional
         A point of the coupler, along and across from the crank pin. [m]
-
-    Returns
-    -------
-    Mechanism
-        Points `crank_pin`, `coupler_pin`, `rocker_pivot`, links `coupler` and `rocker`.
     """
     dyad = RRR("crank_pin", "rocker_pivot", "coupler_pin", "coupler", "rocker", coupler, rocker, branch)
     points = (LinkPoint("coupler_point", "coupler", *coupler_point),) if coupler_point else ()
@@ -91,6 +88,8 @@ def _six_bar(first: Mechanism, pin: LinkPoint, link: float, output: float, pivot
 def crank_shaper(crank: float, pivot_distance: float, lever: float, link: float, ram_height: float) -> Mechanism:
     """Return a crank shaper: a slotted lever pivoted below the crank, its tip linked to a ram on a level guide.
 
+    Links `lever` and `link`, sliding pieces `block` and `ram`; at a crank angle of zero the crank stands upright.
+
     Parameters
     ----------
     crank : float
@@ -101,11 +100,6 @@ def crank_shaper(crank: float, pivot_distance: float, lever: float, link: float,
         Length of the lever from pivot to tip, and of the link from tip to ram. [m]
     ram_height : float
         Height of the guide above the crankshaft. [m]
-
-    Returns
-    -------
-    Mechanism
-        Links `lever` and `link`, sliding pieces `block` and `ram`; at a crank angle of zero the crank stands upright.
     """
     if not crank < pivot_distance:
         raise GeometryError(ErrorMessage("lever_turns", crank=crank * 1e3, pivot=pivot_distance * 1e3))
@@ -147,23 +141,22 @@ def whitworth(crank: float, pivot_distance: float, arm: float, link: float, ram_
 def scotch_yoke(crank: float, slot_angle: float = math.pi / 2) -> Mechanism:
     """Return a Scotch yoke that slides along the x axis.
 
+    Sliding pieces `yoke`, its distance along the guide, and `block` in its slot.
+
     Parameters
     ----------
     crank : float
         Crank radius. [m]
     slot_angle : float
         Angle of the slot to the guide. [rad]
-
-    Returns
-    -------
-    Mechanism
-        Sliding pieces `yoke`, its distance along the guide, and `block` in its slot.
     """
     return Mechanism(Crank(crank), (RPP("crank_pin", "yoke", "block", Guide(angle=slot_angle)),))
 
 
 def toggle_press(crank: float, rod: float, upper: float, lower: float, pivot: Point) -> Mechanism:
     """Return a toggle (knuckle) press: a rod that straightens two levers, the lower one on the ram.
+
+    Point `knee`, links `rod`, `upper`, `lower`, sliding piece `ram`, its distance counted downwards.
 
     Parameters
     ----------
@@ -173,11 +166,6 @@ def toggle_press(crank: float, rod: float, upper: float, lower: float, pivot: Po
         Lengths of the levers above and below the knee. [m]
     pivot : tuple of float
         Fixed pivot of the upper lever; the ram slides on the vertical line below it. [m]
-
-    Returns
-    -------
-    Mechanism
-        Point `knee`, links `rod`, `upper`, `lower`, sliding piece `ram`, its distance counted downwards.
     """
     side: Branch = -1 if pivot[0] > 0 else 1
     return Mechanism(
@@ -187,38 +175,4 @@ def toggle_press(crank: float, rod: float, upper: float, lower: float, pivot: Po
             RRP("knee", "ram_pin", "lower", lower, guide_point=pivot, guide_angle=-math.pi / 2, block="ram"),
         ),
         ground={"upper_pivot": pivot},
-    )
-
-
-def slotted_press() -> Mechanism:
-    """Return the press of a Russian course project: crank, rod, slotted rocker, block and punch.
-
-    The document gives the lengths of crank, rod and rocker and a table of transfer functions, not the positions
-    of the pivots: pivot distance, start in the outer dead position and line of the punch are those that fit
-    the table best.
-
-    Returns
-    -------
-    Mechanism
-        Links `rod` and `rocker`, sliding pieces `block` and `punch`, masses of the document.
-    """
-    crank, rod, rocker, ground = 0.05, 0.6, 0.21, 0.632
-    reach = rod + crank
-    start = math.acos((reach**2 + ground**2 - rocker**2) / (2 * reach * ground))
-    distance, normal = 0.2013, math.radians(100.4)
-    foot = (ground + distance * math.cos(normal), distance * math.sin(normal))
-    return Mechanism(
-        Crank(crank, start=start, direction=-1),
-        (
-            RRR("crank_pin", "rocker_pivot", "rocker_pin", "rod", "rocker", rod, rocker),
-            PRP("punch_pin", "block", "punch", Guide(link="rocker"), Guide(foot, normal - math.pi / 2)),
-        ),
-        bodies=(
-            body_at("rod", 255.1, 7.653, "rod_centre"),
-            body_at("block", 81.6, 0.0, "punch_pin"),
-            body_at("punch", 102.0, 0.0, "punch_pin"),
-            body_at("rocker", 153.1, 153.1 * rocker**2 / 12, "rocker_centre"),
-        ),
-        ground={"rocker_pivot": (ground, 0.0)},
-        points=(LinkPoint("rod_centre", "rod", rod / 2), LinkPoint("rocker_centre", "rocker", rocker / 2)),
     )

@@ -11,7 +11,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Branch, Chain, ChainLink, Dyad, Guide, Point, Slide
 from crankwork.mechanism.linkage import Linkage, Member
-from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
+from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
 from crankwork.mechanism.structure import known_points, structure
 
 _IN_LINE = 1e-9
@@ -45,6 +45,46 @@ def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) ->
             bodies.append(body_at(half.link, half.mass, half.inertia, name))
     found_points, ground = tuple(order.points), dict(linkage.ground)
     return Mechanism(linkage.driver, tuple(groups), tuple(bodies), ground, found_points, order.bars), []
+
+
+def linkage_of(mechanism: Mechanism) -> Linkage | None:
+    """Return the linkage that `mechanism_of` makes a mechanism from, None for another driver or a chain."""
+    ends, guides, branches = dict[str, dict[str, Point]](), dict[str, Guide](), dict[str, Branch]()
+    origin, driver = (0.0, 0.0), mechanism.driver
+    for dyad in mechanism.dyads:
+        match dyad:
+            case RRR():
+                ends[dyad.link_a] = {dyad.joint_a: origin, dyad.point: (dyad.length_a, 0.0)}
+                ends[dyad.link_b] = {dyad.joint_b: origin, dyad.point: (dyad.length_b, 0.0)}
+                branches[dyad.point] = dyad.branch
+            case RRP():
+                ends[dyad.link] = {dyad.joint: origin, dyad.slider: (dyad.length, 0.0)}
+                ends[dyad.piece], guides[dyad.piece] = {dyad.slider: origin}, dyad.guide
+                branches[dyad.slider] = dyad.branch
+            case RPR():
+                ends[dyad.link], ends[dyad.block] = {dyad.pivot: origin}, {dyad.joint: origin}
+                guides[dyad.block], branches[dyad.link] = replace(dyad.slot, link=dyad.link), dyad.branch
+            case PRP():
+                guides |= {dyad.block_a: dyad.guide_a, dyad.block_b: dyad.guide_b}
+                ends |= {block: {dyad.point: origin} for block in (dyad.block_a, dyad.block_b)}
+            case RPP():
+                guides |= {dyad.link: dyad.guide, dyad.block: replace(dyad.slot, link=dyad.link)}
+                ends |= {dyad.link: {}, dyad.block: {dyad.joint: origin}}
+            case Chain():
+                return None
+    if not isinstance(driver, Crank) or driver.geared or any(body.share for body in mechanism.bodies):
+        return None
+    bodies = {body.link: (body.mass, body.inertia, body.start) for body in mechanism.bodies}
+    driving, *members = (
+        Member(
+            name,
+            placed | {point.name: (point.along, point.across) for point in mechanism.points if point.link == name},
+            name if name in guides else "",
+            *bodies.get(name, ()),
+        )
+        for name, placed in {driver.link: {}, **ends}.items()
+    )
+    return Linkage(driver, mechanism.ground, tuple(members), guides, branches, driving=driving)
 
 
 @dataclass

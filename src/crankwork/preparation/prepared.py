@@ -22,6 +22,7 @@ from crankwork.loads.chamber_gas import NO_GAS, ChamberGas
 from crankwork.loads.indicator import DeadCentres, IndicatorDiagram, solve_diagram
 from crankwork.loads.pressure_processing import PressureReference, measured_diagram
 from crankwork.loads.valves import StatedValves
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
 from crankwork.preparation import traced_inputs
@@ -138,7 +139,7 @@ def prepare(machine: Machine, method: Method, kind: type[_Cylinder]) -> _Cylinde
     """
     lengths = machine.lengths
     if lengths is None:
-        raise CrankworkError("only a slider-crank can be analysed")
+        raise CrankworkError(ErrorMessage("object_mechanism"))
     check_slider_crank(lengths)
     speed = angular_speed(method.pi, machine.speed * 30 / math.pi)
     notices = []
