@@ -65,9 +65,6 @@ from crankwork.sources import cite
 
 if TYPE_CHECKING:
     from docx.document import Document
-
-if TYPE_CHECKING:
-    from docx.document import Document
     from docx.section import Section
 
 

@@ -193,9 +193,8 @@ def readable(blocks: Sequence[Block], numbers: Numbering) -> Iterator[Block]:
         if not wide:
             yield from row
         elif len(row) > 1:
-            yield from readable(
-                [replace(part, half=False) for part in row if isinstance(part, Figure | Table)], numbers
-            )
+            blocks_below = [replace(part, half=False) for part in row if isinstance(part, Figure | Table)]
+            yield from readable(blocks_below, numbers)
         else:
             yield from _divided(wide[0], numbers)
 

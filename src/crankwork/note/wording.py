@@ -203,11 +203,7 @@ class Words:
     def reached_at(self) -> Runs:
         """Return the heading of a column of positions at which values are reached."""
         symbol, _, unit = self.place(0.0)
-        return (
-            self.column("at") + "\u00a0",
-            symbol,
-            ",\u00a0°" if unit == "deg" else f", {printed_unit(unit, self.language)}",
-        )
+        return self.column("at") + "\u00a0", symbol, f",\u00a0{printed_unit(unit, self.language)}"
 
 
 def named(columns: Mapping[str, object], *kinds: str) -> list[str]:
