@@ -33,8 +33,8 @@ from crankwork.note.document import (
 from crankwork.quantities import Language
 from crankwork.sources import school_source, source_language, sources
 
-# of a page: height of its text, what may stay empty in a section, before the next, and where text would fill it [pt]
-PAGE, _LITTLE, _MUCH, _EMPTY = 728.0, 60.0, 240.0, 180.0
+# of a page: height of its text, what may stay empty within a section, and where text would fill it [pt]
+PAGE, _LITTLE, _EMPTY = 728.0, 60.0, 180.0
 # how much text a figure waits for until it stands anywhere, a line of text, the beginning of a long table [pt]
 _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
 # height of the caption of a figure [pt], by what share its height may be wrong, what share of its size it keeps
@@ -186,7 +186,7 @@ def flow(
         waiting += [k] if may_wait else []
         covers = isinstance(block, TitlePage) and not block.is_plain
         is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
-        most = PAGE if is_new else _MUCH if isinstance(block, Heading) and block.level == 1 else _LITTLE
+        most = PAGE if is_new or (isinstance(block, Heading) and block.level == 1) else _LITTLE
         # what waits does not stand between a heading and its text
         while waiting and (not is_heading or waiting == [k]):
             # no derivation is divided by what it does not need
