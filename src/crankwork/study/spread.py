@@ -173,8 +173,8 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
         check_single(stated, key)
     neighbours.near = near = _Near(list(known), np.array(list(known.values())), math.radians(stated.machine.cycle))
     middle = near.middle
-    # an analysis with friction takes a second, and a few values are compiled sooner than analysed
-    if keys and "friction_power" in stated.trace:
+    # an analysis with friction takes a second: compiling takes no longer than a few of them
+    if "friction_power" in stated.trace:
         neighbours.compile(np.arange(len(near.names)), samples)
     first, second = neighbours.alone(told)
     variances = first**2 + second**2 / 2
