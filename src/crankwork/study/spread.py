@@ -173,8 +173,8 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
         check_single(stated, key)
     neighbours.near = near = _Near(list(known), np.array(list(known.values())), math.radians(stated.machine.cycle))
     middle = near.middle
-    # an analysis with friction takes a second: compiling takes no longer than a few of them
-    if "friction_power" in stated.trace:
+    # an analysis with friction takes a second, and a few values are compiled sooner than analysed
+    if keys and "friction_power" in stated.trace:
         neighbours.compile(np.arange(len(near.names)), samples)
     first, second = neighbours.alone(told)
     variances = first**2 + second**2 / 2
@@ -289,9 +289,9 @@ class _Neighbours:
                 continue
             # without those that are told, if any are
             left = part[[key not in machines.refused for key in keys]]
-            is_told = left.size < part.size
-            parts += [half for half in np.array_split(left, 1 if is_told else 2) if half.size < part.size]
-            parts = [one for one in parts if one.size]
+            is_smaller = left.size < part.size
+            parts += [half for half in np.array_split(left, 1 if is_smaller else 2) if half.size < part.size]
+            parts = [part for part in parts if part.size]
 
     @property
     def known(self) -> list[int]:
