@@ -1,8 +1,8 @@
 """Compares compiled calculations with analyses, for machine files and for machines drawn by chance.
 
 Some numbers of each machine are varied; every single value that compiles is compared at designs between those that
-were traced. `test_campaign.py` runs a few; `scripts/campaign kernels --count 1000` many, `--rubbing` such with friction,
-and `--known` machine files of the repository with numbers drawn by chance.
+were traced. `test_campaign.py` runs a few; `scripts/campaign kernels --count 1000` many, `--rubbing` such with
+friction, and `--known` machine files of the repository with numbers drawn by chance.
 """
 
 from __future__ import annotations
@@ -269,7 +269,7 @@ def _unlike(machine: Machine, kernel: Kernel) -> set[str]:
     return unlike
 
 
-def _worst(
+def _worst(  # noqa: C901 - what is left out, and what explains a difference
     found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.Generator, left: Collection[str] = ()
 ) -> Comparison:
     """Return how far designs between those traced are apart at most."""
@@ -405,7 +405,7 @@ def _late(*_: object) -> None:
     raise TimeoutError
 
 
-def main() -> int:
+def main() -> int:  # noqa: C901 - options, and what is counted
     """Compare many, print what is apart, and return how many are."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="*")

@@ -162,7 +162,7 @@ class Kernel:
         reduced: dict[int, TracedValue] = {}
         while True:
             lowering = lower(beforehand=self._inputs_of)
-            outputs = compiled_values(lambda key: self._output(key, lowering), self._wanted)  # noqa: B023
+            outputs = compiled_values(lambda key: _of_cycle(self._wanted[key], lowering), self._wanted)  # noqa: B023
             if before is not None and self._before is None and not reduced:
                 # panels are laid before any value is reduced, and an end may follow from an extreme
                 reduced = lowering.reduced_before_ends()
@@ -174,12 +174,6 @@ class Kernel:
         if corners and self._corners is None:
             self._corners = Crossings(designs, corners, lower(beforehand=self._inputs_of), grid, len(self._inputs_of))
         return lowering, outputs
-
-    def _output(self, key: str, lowering: Lowering) -> KernelValue:
-        """Return a single value, or the reduction that stores a column."""
-        known = self._wanted[key]
-        value = lowering.value(known)
-        return value.graph.reduction("column", value) if known.varies else value
 
     def _carry_out(self, grid: Grid, *, is_compiled: bool, steps: int | None, parts: int) -> None:
         """Write the schedule out, and set what carries it out with arrays."""
@@ -408,6 +402,12 @@ def _traces_of(
         for index in range(len(designs.traces))
     ]
     return traces, designs.fields, list(nodes)
+
+
+def _of_cycle(known: TracedValue, lowering: Lowering) -> KernelValue:
+    """Return a single value, or the reduction that stores a column."""
+    value = lowering.value(known)
+    return value.graph.reduction("column", value) if known.varies else value
 
 
 def _dependencies(node: Node) -> Sequence[TracedValue]:

@@ -20,6 +20,8 @@ _CALLED = {
 }  # fmt: skip
 # decimals of directions that only half turns are counted from [rad]
 _ROUGH = 2
+# first letters of names
+_LETTERS = 26
 
 
 class Script:
@@ -84,12 +86,12 @@ class Script:
         yield "var steps={table(q,t,n){for(let j=0;j<n;j+=1){"
         leaves = self._leaves()
         for row, leaf in enumerate(leaves):
-            yield f"const v{leaf.index}=q[{row}][j];"
+            yield f"const {_name(leaf)}=q[{row}][j];"
         for value in in_order(self._plan.of_angle):
             if value.kind not in ("angle", "constant"):
-                yield f"const v{value.index}={_expression(value)};"
+                yield f"const {_name(value)}={_expression(value)};"
         for row, value in enumerate(self._plan.of_angle):
-            yield f"t[{row}*n+j]=v{value.index};"
+            yield f"t[{row}*n+j]={_name(value)};"
         yield "}},levels:["
         start = 0
         for level in self._plan.levels:
@@ -111,9 +113,9 @@ class Script:
         yield from self._read(operand for operand in operands if operand.index not in done)
         for value in level.designs:
             result = f"s[{source.rows(source.place(value))}]" if value.kind == "input" else _expression(value)
-            yield f"const v{value.index}={result};"
+            yield f"const {_name(value)}={result};"
             if value.index in source.used and value.kind != "input":
-                yield f"s[{source.rows(value.index)}]=v{value.index};"
+                yield f"s[{source.rows(value.index)}]={_name(value)};"
 
     def _loop(self, level: Level, loop: Loop, start: int) -> Iterator[str]:
         source, plan = self._source, self._plan
@@ -128,20 +130,20 @@ class Script:
         yield f"for(let i={start};i<{start + loop.angles.size};i+=1){{const j=o[i];"
         for value in external.values():
             if value.depends_on_angle:
-                yield f"const v{value.index}=t[{plan.row_of_angle[value.index]}*n+j];"
+                yield f"const {_name(value)}=t[{plan.row_of_angle[value.index]}*n+j];"
         for value in loop.values:
             if value.kind == "delayed":
                 place = f"p[{source.delays(value.detail)}][j]"
-                yield f"const v{value.index}=b[{source.columns(value.operands[0].index)}*n+{place}];"
+                yield f"const {_name(value)}=b[{source.columns(value.operands[0].index)}*n+{place}];"
             else:
-                yield f"const v{value.index}={_expression(value)};"
+                yield f"const {_name(value)}={_expression(value)};"
         for column, value in zip(level.columns, loop.columns, strict=True):
             yield f"b[{source.columns(column.index)}*n+j]={_name(value)};"
         yield "}"
 
     def _read(self, values: Iterable[KernelValue]) -> Iterator[str]:
         for value in {value.index: value for value in values if not value.is_constant}.values():
-            yield f"const v{value.index}=s[{self._source.rows(self._source.place(value))}];"
+            yield f"const {_name(value)}=s[{self._source.rows(self._source.place(value))}];"
 
 
 def _reduced(level: Level) -> list[KernelValue]:
@@ -182,6 +184,7 @@ def _expression(value: KernelValue) -> str:
 
 def _name(value: KernelValue) -> str:
     if not value.is_constant:
-        return f"v{value.index}"
+        # as short as may be: of no reserved word, and of none of the arguments
+        return chr(ord("a") + value.index % _LETTERS) + np.base_repr(value.index // _LETTERS, 36)
     text = repr(number(value)).replace("inf", "Infinity").replace("nan", "NaN").removesuffix(".0")
     return f"({text})" if text.startswith("-") else text

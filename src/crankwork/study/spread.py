@@ -289,9 +289,9 @@ class _Neighbours:
                 continue
             # without those that are told, if any are
             left = part[[key not in machines.refused for key in keys]]
-            is_told = left.size < part.size
-            parts += [half for half in np.array_split(left, 1 if is_told else 2) if half.size < part.size]
-            parts = [one for one in parts if one.size]
+            is_smaller = left.size < part.size
+            parts += [half for half in np.array_split(left, 1 if is_smaller else 2) if half.size < part.size]
+            parts = [part for part in parts if part.size]
 
     @property
     def known(self) -> list[int]:
