@@ -384,10 +384,9 @@ def parse(
         raise ValueError(ErrorMessage("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
     above, _, below = number.partition("/")
     value = to_si(float(above) / float(below or 1), spelling)
-    if 0 < abs(value) < _LEAST:
-        raise ValueError(ErrorMessage("too_small", text=_short(text)))
-    if not math.isfinite(value):
-        raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
+    if not math.isfinite(value) or 0 < abs(value) < _LEAST:
+        size = "too_small" if abs(value) < 1.0 else "too_large"
+        raise ValueError(ErrorMessage(size, text=_short(text), example=example))
     return (
         ParsedQuantity(value / (gravity if {"N", "Н"} & {*spelling} else KGF), weighed, spellings(weighed)[0], "weight")
         if weighed
