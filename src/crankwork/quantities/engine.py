@@ -56,6 +56,8 @@ ENGINE = (
     Quantity("curve_share", "", "Way from a point of a curve over that to the next one."),
     Quantity("diagram_pressure", "MPa",
              "Pressure in the cylinder, absolute or above that in the crankcase, as the diagram is given."),
+    Quantity("listed_pressure", "", "Entry of a table of pressures: pressure over that which 1 stands for."),
+    Quantity("listed_pressure_unit", "MPa", "Pressure that an entry of 1 stands for: the largest one, or the unit."),
     Quantity("polytropic_exponent", "", "Exponent of the volume in the equation of a polytrope."),
     Quantity("ambient_pressure", "MPa", "Absolute pressure under the piston."),
     Quantity("pressure_factor", "", "Gauge pressure in a cylinder over that of the diagram."),
