@@ -518,25 +518,26 @@ def build_diagram(values: Values, path: str, reader: Reader, cycle: str | None =
 
 def _check_strokes(table: Values, path: str, cycle: str, reader: Reader, *, absolute: bool) -> None:
     """Report mistakes of a table of pressures over the stroke."""
-    shares, others = table["shares"], set(table).intersection(*STROKES.values()) - {*STROKES[cycle]}
+    shares = table["shares"]
     if {"largest", "unit"}.isdisjoint(table) and not reader.has_errors(f"{path}.largest", f"{path}.unit"):
         reader.add_error(f"{path}.largest", ErrorMessage("missing", advice=('largest = "4 MPa"', 'unit = "MPa"')))
     if shares and None not in shares and (shares != sorted({*shares}) or shares[0] or shares[-1] != 1):
         reader.add_error(f"{path}.shares", ErrorMessage("stroke_shares"))
-    for name in others:
-        key, other = "period" if path.startswith("chambers.") else "cycle", (*(STROKES.keys() - {cycle}),)
-        reader.add_error(f"{path}.{name}", no_effect_message(key, cycle, other))
+    key = "period" if path.startswith("chambers.") else "cycle"
+    others = {name: other for other, names in STROKES.items() if other != cycle for name in names if name in table}
+    for name, other in others.items():
+        reader.add_error(f"{path}.{name}", no_effect_message(key, cycle, (other,)))
     for name in STROKES[cycle]:
         if name not in table and not reader.has_errors(f"{path}.{name}"):
             reader.add_error(f"{path}.{name}", ErrorMessage("missing", advice=(f"{name} = [...]",)))
         elif name in table and shares and len(table[name]) != len(shares):
             message = ErrorMessage("load_at_count", count=len(table[name]), others=len(shares), column="shares")
             reader.add_error(f"{path}.{name}", message)
-        for place, ratio in enumerate(table[name], start=1):
-            if absolute and ratio is not None and ratio < 0:
+        for place, pressure in enumerate(table[name], start=1):
+            if absolute and (pressure or 0.0) < 0:
                 reader.add_error(f"{path}.{name}[{place}]", ErrorMessage("point_vacuum"))
             elif "largest" in table:
-                Number(-1.0, 1.0).read(ratio, f"{path}.{name}[{place}]", reader)
+                Number(-1.0, 1.0).read(pressure, f"{path}.{name}[{place}]", reader)
 
 
 def _over_strokes(

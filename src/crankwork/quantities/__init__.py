@@ -251,7 +251,7 @@ _LINKAGE = (
     Quantity("load_x", "N", "Component of one load along the fixed x axis."),
     Quantity("load_y", "N", "Component of one load along the fixed y axis."),
     Quantity("process_force", "N", "Force of the process, positive against the working stroke."),
-    Quantity("travel_share", "", "Distance from the start of the working stroke or the top dead centre, over the stroke."),
+    Quantity("travel_share", "", "Distance from the start of the working stroke or from the top, over the stroke."),
     Quantity("working_stroke", "mm", "Way from the beginning of the working stroke."),
     Quantity("steady_speed", "rpm", "Mean speed of the crank that motor and loads settle at."),
     Quantity("transient_time", "s", "Time from the start of a transient."),
