@@ -150,10 +150,10 @@ def test_the_largest_pressure_and_the_stroke_are_swept() -> None:
     less = np.trapezoid(LISTS[2], SHARES) - np.trapezoid([*LISTS[2][:2], 0.8, *LISTS[2][3:]], SHARES)
     means = [np.trapezoid(pressures, SHARES) for pressures in LISTS]
     mean = means[0] - means[1] + means[2] - means[3]
+    assert not designs.reason
     for largest, stroke, ratio, found, peak, work in zip(
-        *(np.ravel(designs.inputs[key]) for key in changes), *(np.ravel(column) for column in designs.values.values()),
-        strict=True,
-    ):  # fmt: skip
+        *(designs.fields[key] for key in changes), *designs.values.values(), strict=True
+    ):
         wanted = largest * (mean - (less if ratio < 0.9 else 0.0))
         assert found == pytest.approx(wanted, rel=1e-9)
         assert peak == pytest.approx(largest, rel=1e-9)
