@@ -18,8 +18,8 @@ from rules import every_formula
 PINNED = {
     "symbols": "3be719c08af6",
     "formulas": "bd43ba84fc48",
-    "quantities": "dfce1c8a571c",
-    "defaults": "59fd6ef75afd",
+    "quantities": "5107d5abad0e",
+    "defaults": "ad53ff1670a6",
 }
 
 

@@ -524,9 +524,9 @@ def _check_strokes(table: Values, path: str, cycle: str, reader: Reader, *, abso
     if shares and None not in shares and (shares != sorted({*shares}) or shares[0] or shares[-1] != 1):
         reader.add_error(f"{path}.shares", ErrorMessage("stroke_shares"))
     key = "period" if path.startswith("chambers.") else "cycle"
-    others = {name: other for other, names in STROKES.items() if other != cycle for name in names if name in table}
-    for name, other in others.items():
-        reader.add_error(f"{path}.{name}", no_effect_message(key, cycle, (other,)))
+    foreign = {name: wanted for wanted, names in STROKES.items() if wanted != cycle for name in names if name in table}
+    for name, wanted in foreign.items():
+        reader.add_error(f"{path}.{name}", no_effect_message(key, cycle, (wanted,)))
     for name in STROKES[cycle]:
         if name not in table and not reader.has_errors(f"{path}.{name}"):
             reader.add_error(f"{path}.{name}", ErrorMessage("missing", advice=(f"{name} = [...]",)))

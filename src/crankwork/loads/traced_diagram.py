@@ -66,12 +66,12 @@ def traced_pressure(
     `retold`: its form that holds for all inputs, or points and laws if it is given by them; `path`: of the diagram in
     the description; `owner`: the chamber it belongs to, if it is one of a linkage.
     """
-    tracer = None
-    if isinstance(retold, DiagramInput):
-        tracer, retold = partial(_DiagramTracer, retold, diagram), partial(retold.general_form, diagram)
+    tracer, general = None, retold
+    if isinstance(general, DiagramInput):
+        tracer, general = partial(_DiagramTracer, general, diagram), partial(general.general_form, diagram)
     laws = tuple(_law(diagram, segment, volume, (path, owner), tracer) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
-    return TracedValue(Piecewise(ends, laws, diagram.breaks.tolist(), retold), _of("diagram_pressure", owner))
+    return TracedValue(Piecewise(ends, laws, diagram.breaks.tolist(), general), _of("diagram_pressure", owner))
 
 
 def _of(key: str, owner: str, name: str = "") -> str:
