@@ -234,8 +234,9 @@ def solve_diagram(
 
 
 def counts_from_top(points: Mapping[str, DiagramPoint], pieces: Sequence[Piece]) -> bool:
-    """Return whether a diagram begins where the volume is least, wherever that is."""
-    return bool(pieces) and pieces[0].points[0] in points and points[pieces[0].points[0]].stroke == 0.0
+    """Return whether a diagram is a table over the stroke, which begins where the volume is least."""
+    first = points.get(pieces[0].points[0]) if pieces else None
+    return first is not None and first.stroke == 0.0 and bool(first.inputs)
 
 
 class _Solver:
