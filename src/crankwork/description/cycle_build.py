@@ -511,7 +511,7 @@ def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Re
     """Return the gas with another diagram; its pressures are absolute or gauge as those of the gas table."""
     check_parts(values, path, reader)
     pressures = "absolute" if gas.is_absolute else table["pressures"]
-    diagram = build_diagram(values.but(pressures=pressures), path, reader)
+    diagram = build_diagram(values.but(pressures=pressures), path, reader, f"{gas.cycle:g} deg")
     valves = build_valves(values, path, reader)
     if valves is not None and not (gas.is_absolute and gas.cycle == _FULL_TURN):
         key, wanted = ("cycle", "360 deg") if gas.is_absolute else ("pressures", "absolute")

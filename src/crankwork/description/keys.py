@@ -696,7 +696,7 @@ POINT = TableSpec("point", {
 })  # fmt: skip
 
 PIECE = TableSpec("piece", {
-    "law": KeySpec(Choice(("constant", "polytropic", "rounded")), required=True),
+    "law": KeySpec(Choice(("constant", "polytropic", "rounded", "straight")), required=True),
     "points": KeySpec(ListOf(Text(60), fewest=2), required=True),
     "exponent": KeySpec(Number(0.0, 5.0), only={"law": ("polytropic",)}),
     "reference": KeySpec(Text(60), only={"law": ("polytropic",)}),
@@ -786,12 +786,23 @@ _COMBUSTION = TableSpec("combustion", {
     "windows": KeySpec(ListOf(_WINDOW, fewest=1, most=20)),
 })  # fmt: skip
 
+# lists of a table of pressures over the stroke, from the top dead centre on
+STROKES = {"720 deg": ("intake", "compression", "expansion", "exhaust"), "360 deg": ("down", "up")}
 # keys of the pressure of a cylinder or chamber
 PRESSURES = KeySpec(Choice(("gauge", "absolute")), default="gauge")
+_PRESSURES = ListOf(Number(-1e9, 1e9), fewest=2, most=500)
+_STROKES = TableSpec("stroke_table", {
+    "shares": KeySpec(ListOf(Number(0.0, 1.0), fewest=2, most=500), required=True),
+    **{name: KeySpec(_PRESSURES) for names in STROKES.values() for name in names},
+    "largest": KeySpec(_PRESSURE, instead_of=("unit",)),
+    "unit": KeySpec(UnitOf("pressure"), instead_of=("largest",)),
+    "law": KeySpec(Choice(("straight", "rounded")), default="straight"),
+})  # fmt: skip
 DIAGRAM = {
     "points": KeySpec(MapOf(POINT)),
     "pieces": KeySpec(ListOf(PIECE, fewest=1, most=500)),
-    "measured": KeySpec(MEASURED, instead_of=("points", "pieces")),
+    "strokes": KeySpec(_STROKES, instead_of=("points", "pieces")),
+    "measured": KeySpec(MEASURED, instead_of=("points", "pieces", "strokes")),
 }
 _OWN = {**DIAGRAM, "valves": KeySpec(VALVES, instead_of=tuple(DIAGRAM))}
 _GAS = TableSpec("gas", {

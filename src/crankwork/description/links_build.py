@@ -17,6 +17,7 @@ from crankwork.description.crankshaft_build import (
     check_friction,
     check_shaft,
 )
+from crankwork.description.keys import DIAGRAM
 from crankwork.description.measured_build import (
     add_questions,
     build_diagram,
@@ -82,7 +83,7 @@ _WITHOUT_DRIVER = ("speed", "angular_acceleration")
 _SUM = 1e-9
 # how long a motion is followed of which one instant is asked about [s]
 _INSTANT = 1e-3
-_OWN_PRESSURE = ("pressure", "points", "pieces", "measured", "valves", "cycle")
+_OWN_PRESSURE = ("pressure", *DIAGRAM, "valves", "cycle")
 _AMOUNTS = ("mean_pressure", "pressure", "mass")
 
 
@@ -757,7 +758,8 @@ def build_chambers(
             _check_staged(path, table, reader)
         else:
             _check_pressure(path, table, sealed.get(holder.get(name, "")), reader)
-        diagram, valves = build_diagram(table, path, reader), staged.get(name) or build_valves(table, path, reader)
+        diagram = build_diagram(table, path, reader, table["period"])
+        valves = staged.get(name) or build_valves(table, path, reader)
         if not faces or any(problem.key.startswith(path) for problem in reader.problems):
             continue
         if valves is not None:

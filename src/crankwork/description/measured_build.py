@@ -13,9 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.description.keys import DIAGRAM, STROKES
 from crankwork.description.schema import Values, nearest_name, no_effect_message
 from crankwork.description.table_file import FileTable, read_list, read_table
-from crankwork.description.value_types import MeasuredValue, Reader
+from crankwork.description.value_types import MeasuredValue, Number, Reader
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import TracedValue, given
 from crankwork.kinematics.crank_grid import Array
@@ -337,7 +338,7 @@ def build_gas(values: Values | None, cylinder: Cylinder | None, reader: Reader) 
         return None
     _check_gas(values, cylinder, reader)
     _check_rod(values, cylinder, reader)
-    diagram = build_diagram(values, "gas", reader)
+    diagram = build_diagram(values, "gas", reader, values.get("cycle"))
     if {"cycle", "pressure"}.isdisjoint(values):
         return None
     cycle = float(values["cycle"].split()[0]) if "cycle" in values else 360.0
@@ -378,7 +379,7 @@ def _check_gas(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 def has_diagram(values: Values) -> bool:
     """Return whether a table has a diagram or a part of it."""
-    return not {"points", "pieces", "measured", "valves"}.isdisjoint(values)
+    return not {*DIAGRAM, "valves"}.isdisjoint(values)
 
 
 def _tables(values: Values) -> Iterator[Values]:
@@ -400,7 +401,7 @@ def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 def check_parts(values: Values, path: str, reader: Reader) -> None:
     """Report points without laws, and laws without points."""
-    for key in ("points", "pieces") if {"measured", "valves", "pressure"}.isdisjoint(values) else ():
+    for key in ("points", "pieces") if {"strokes", "measured", "valves", "pressure"}.isdisjoint(values) else ():
         if key not in values and not reader.has_errors(f"{path}.{key}", f"{path}.measured", f"{path}.valves"):
             reader.add_error(f"{path}.{key}", ErrorMessage(f"gas_{key}", path=path))
 
@@ -471,8 +472,11 @@ def with_valves(diagram: Diagram, valves: Valves, *, has_clearance: bool) -> Dia
     return diagram._replace(points=points, pieces=pieces)
 
 
-def build_diagram(values: Values, path: str, reader: Reader) -> Diagram:
-    """Return points and laws, or measured samples; report contradictions; `path`: of the diagram in the description."""
+def build_diagram(values: Values, path: str, reader: Reader, cycle: str | None = None) -> Diagram:
+    """Return points and laws, or measured samples; report contradictions.
+
+    `path`: of the diagram in the description; `cycle`: after which it repeats, as stated.
+    """
     _check_points(values, path, reader)
     measured = read_measured(values["measured"], reader, path) if "measured" in values else None
     source, shift = values["measured"], math.degrees(values["measured"].si("shift"))
@@ -497,13 +501,18 @@ def build_diagram(values: Values, path: str, reader: Reader) -> Diagram:
             pressure = None if point is None else point.si("pressure")
             if pressure is not None and pressure < 0:
                 reader.add_error(f"{path}.points.{name}.pressure", ErrorMessage("point_vacuum"))
+    points, pieces = dict[str, DiagramPoint](), tuple[Piece, ...]()
+    if "strokes" in values and cycle is not None:
+        points, pieces = _over_strokes(values["strokes"], f"{path}.strokes", cycle, reader, absolute=absolute)
     return Diagram(
-        points={
+        points=points
+        or {
             name: point.made(DiagramPoint, angle=point.degrees("angle"))
             for name, point in values["points"].items()
             if point is not None
         },
-        pieces=tuple(
+        pieces=pieces
+        or tuple(
             piece.made(Piece, points=tuple(name for name in piece["points"] if name))
             for piece in values["pieces"]
             if piece and {"law", "points"} <= set(piece)
@@ -512,6 +521,58 @@ def build_diagram(values: Values, path: str, reader: Reader) -> Diagram:
         angle_shift=shift,
         resample=math.degrees(resample) if resample else None,
     )
+
+
+def _check_strokes(table: Values, path: str, cycle: str, reader: Reader, *, absolute: bool) -> None:
+    """Report mistakes of a table of pressures over the stroke."""
+    shares = table["shares"]
+    if {"largest", "unit"}.isdisjoint(table) and not reader.has_errors(f"{path}.largest", f"{path}.unit"):
+        reader.add_error(f"{path}.largest", ErrorMessage("missing", advice=('largest = "4 MPa"', 'unit = "MPa"')))
+    if shares and None not in shares and (shares != sorted({*shares}) or shares[0] or shares[-1] != 1):
+        reader.add_error(f"{path}.shares", ErrorMessage("stroke_shares"))
+    key = "period" if path.startswith("chambers.") else "cycle"
+    foreign = {name: wanted for wanted, names in STROKES.items() if wanted != cycle for name in names if name in table}
+    for name, wanted in foreign.items():
+        reader.add_error(f"{path}.{name}", no_effect_message(key, cycle, (wanted,)))
+    for name in STROKES[cycle]:
+        if name not in table and not reader.has_errors(f"{path}.{name}"):
+            reader.add_error(f"{path}.{name}", ErrorMessage("missing", advice=(f"{name} = [...]",)))
+        elif name in table and shares and len(table[name]) != len(shares):
+            message = ErrorMessage("load_at_count", count=len(table[name]), others=len(shares), column="shares")
+            reader.add_error(f"{path}.{name}", message)
+        for place, pressure in enumerate(table[name], start=1):
+            if absolute and (pressure or 0.0) < 0:
+                reader.add_error(f"{path}.{name}[{place}]", ErrorMessage("point_vacuum"))
+            elif "largest" in table:
+                Number(-1.0, 1.0).read(pressure, f"{path}.{name}[{place}]", reader)
+
+
+def _over_strokes(
+    table: Values, path: str, cycle: str, reader: Reader, *, absolute: bool
+) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
+    """Return points and curves of a table of pressures over the stroke, numbered over the cycle; report mistakes."""
+    shares, points, pieces = table["shares"], dict[str, DiagramPoint](), list[Piece]()
+    _check_strokes(table, path, cycle, reader, absolute=absolute)
+    if any(problem.key.startswith(path) for problem in reader.problems):
+        return {}, ()
+    key = "largest" if "largest" in table else "unit"
+    unit = table.si("largest") if key == "largest" else UNITS[table["unit"]].factor
+    scale = given("listed_pressure_unit", unit, f"{path}.{key}")
+    for number, name in enumerate(STROKES[cycle]):
+        passed, before = list[str](), points.get(str(len(points)))
+        for k in range(len(shares))[:: -1 if number % 2 else 1]:
+            share = given("travel_share", shares[k], f"{path}.shares[{k + 1}]")
+            pressure = given("listed_pressure", table[name][k], f"{path}.{name}[{k + 1}]") * scale
+            point = DiagramPoint(pressure=pressure.value, stroke=share.value, inputs=(share, pressure))
+            # a stroke begins at the point where the one before ends, or with a jump
+            passed.append(str(len(points) + (point != before)))
+            points[passed[-1]] = point
+        pieces.append(Piece(table["law"], tuple(passed)))
+    last, end = str(len(points)), str(len(points) + 1)
+    if points[last].pressure != points["1"].pressure:
+        pieces.append(Piece("constant", (last, end)))
+        points[end] = replace(points["1"], stroke=None, angle=float(cycle.partition(" ")[0]))
+    return points, tuple(pieces)
 
 
 def pressures_of(values: Values, measured: MeasuredPressure | None) -> str:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.document import Description, load
-from crankwork.description.keys import CHAMBER_CYCLE, LOADING, OF_LINKAGE, OWN_SIZES
+from crankwork.description.keys import CHAMBER_CYCLE, DIAGRAM, LOADING, OF_LINKAGE, OWN_SIZES
 from crankwork.description.machine_file import OF_LIQUID, apply_settings, file_keys, idle_keys, read, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.table_file import resolve_file_columns
@@ -26,7 +26,7 @@ from crankwork.preparation.prepared import PreparedCylinder, prepare
 from crankwork.units import from_si
 from crankwork.working_cycle.pressure_models import MisfirePressure
 
-_DIAGRAM = ("points", "pieces", "measured", "valves")
+_DIAGRAM = (*DIAGRAM, "valves")
 _COUNTED = ("pressures", "ambient")
 # of sums of angles [deg]
 _ROUNDING = 1e-12

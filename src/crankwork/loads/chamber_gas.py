@@ -32,7 +32,15 @@ from crankwork.loads.chamber import (
     least_common,
     own_cycle,
 )
-from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
+from crankwork.loads.indicator import (
+    DeadCentres,
+    DiagramError,
+    IndicatorDiagram,
+    Segment,
+    VolumeAt,
+    counts_from_top,
+    solve_diagram,
+)
 from crankwork.loads.measured_pressure import NoticeData
 from crankwork.loads.pressure_processing import PressureReference, measured_diagram
 from crankwork.loads.traced_diagram import DiagramInput, at_angle, pressure_on_piston, traced_pressure
@@ -341,12 +349,13 @@ def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, l
         return _OwnGas(pressure, work, notices)
     if cycle > chamber.cycle:
         notices.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
-    # valves open by the volume, wherever the dead centre is
-    begins = chamber.delay if chamber.valves is None else chamber.delay + _ends_of_stroke(space, chamber.delay)[0]
+    # valves open by the volume, and strokes begin, wherever the dead centre is
+    is_from_top = chamber.valves is not None or counts_from_top(chamber.points, chamber.pieces)
+    begins = chamber.delay + (_ends_of_stroke(space, chamber.delay)[0] if is_from_top else 0.0)
     # a calculated cycle comes later as that of a cylinder does, so that its jumps keep their sides
     later = chamber.delay if chamber.calculated is not None else 0.0
     volume = delayed(space.volume, -later, full_cycle, space.volume.key)
-    general_form: Callable[[], TracedValue] | None = None
+    general_form: Callable[[], TracedValue] | DiagramInput | None = None
     calculated: CalculatedDiagram | None = None
     # cycles at equal volumes share one diagram
     phases = [angle % space.period for angle in np.arange(0.0, full_cycle, chamber.cycle).tolist()]
@@ -381,8 +390,7 @@ def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, l
     diagram = _joined(diagrams, phases).later(begins - later)
     if chamber.pieces and len(diagrams) == 1:
         size, valves = (space.clearance, space.swept), stated_valves(path, chamber)
-        stated = DiagramInput(chamber.points, chamber.pieces, path, space.volume, *size, valves, begins)
-        general_form = partial(stated.general_form, diagram)
+        general_form = DiagramInput(chamber.points, chamber.pieces, path, space.volume, *size, valves, begins)
     pressure = delayed(traced_pressure(diagram, volume, path, general_form, name), later, full_cycle, key)
     own_phases = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)

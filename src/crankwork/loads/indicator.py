@@ -7,7 +7,7 @@ segments with a pressure at any angle. A segment owns its end, not its start: at
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal, NamedTuple
@@ -22,7 +22,7 @@ from crankwork.loads.curves import hermite, hermite_slope, monotone_slopes
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.locale import ErrorMessage
 
-Law = Literal["constant", "polytropic", "rounded"]
+Law = Literal["constant", "polytropic", "rounded", "straight"]
 # Cylinder volume [m3], or its derivative [m3/rad], of crank angles [deg].
 VolumeAt = Callable[[Array], Array]
 _CLOSING = 1e-3
@@ -55,17 +55,19 @@ class DiagramPoint:
 
     `volume` replaces the computed volume of the cylinder at that angle [m3]. Without an angle the point is where the
     volume next reaches it, or `stroke`, a share of the stroke. [-]
+    `inputs`: stroke and pressure as they follow from a description that states no points.
     """
 
     angle: float | None = None
     pressure: float | None = None
     volume: float | None = None
     stroke: float | None = None
+    inputs: tuple[TracedValue, ...] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A law between two named points, through more of them if it is rounded.
+    """A law between two named points, through more of them if it is rounded or straight over the volume.
 
     `reference` names the state a polytrope passes through, by default the first point.
     """
@@ -99,7 +101,7 @@ class Segment:
     `origin` is the named point of that state or pressure; `piece` the number of the piece in the description; `places`
     where the description or a file of measurements states the pressures at the knots. `operands` of a calculated
     pressure: the pressure of a constant; pressure, exponent and operands of the volume of a polytrope; those of the
-    equation of a curve.
+    equation of a curve. `volumes` at the knots if the law is straight over them. [m3]
     """
 
     start: float
@@ -113,6 +115,7 @@ class Segment:
     piece: int = 0
     places: tuple[str, ...] = field(default=(), compare=False)
     operands: tuple[TracedValue, ...] = field(default=(), compare=False)
+    volumes: Array | None = None
 
     @property
     def is_measured(self) -> bool:
@@ -130,7 +133,13 @@ class Segment:
         if self.law == "polytropic":
             pressure, reference, exponent = self.state
             return np.asarray(polytropic_pressure(pressure, reference, volume, exponent))
-        return self.rounded(degrees)
+        return self.rounded(degrees) if self.volumes is None else self.straight(volume)
+
+    def straight(self, volume: Array) -> Array:
+        """Return the pressure on straight lines between volumes, which rise or fall. [Pa]"""
+        volumes = np.array([]) if self.volumes is None else self.volumes
+        order = slice(None, None, 1 if volumes[-1] >= volumes[0] else -1)
+        return np.interp(volume, volumes[order], self.pressures[order])
 
     def work(self, volume_at: VolumeAt, volume: Array | None = None) -> float:
         """Return the integral of pressure by volume over the segment (heywood_1988, sec. 2.4). [J]
@@ -147,7 +156,11 @@ class Segment:
             growth, less = np.log(volume[1] / volume[0]), 1 - self.state[2]
             return float(pressure[0] * volume[0] * (np.expm1(less * growth) / less if less else growth))
         # the end of the cycle may cut a curve
-        nodes, weights = quadrature(np.clip(self.knots, self.start, self.end))
+        knots = np.clip(self.knots, self.start, self.end)
+        if self.volumes is not None:
+            volume = volume_at(knots)
+            return float(np.trapezoid(self.straight(volume), volume))
+        nodes, weights = quadrature(knots)
         slope = hermite_slope(self.knots, self.pressures, self.slopes, nodes)
         change = weights @ (volume_at(nodes) * np.degrees(slope))
         return float(pressure[1] * volume[1] - pressure[0] * volume[0] - change)
@@ -221,12 +234,18 @@ def solve_diagram(
         dead_centres = DeadCentres(dead_centres)
     solver = _Solver(points, volume_at, dead_centres, cycle, path)
     segments = [replace(solver.segment(index, piece), piece=index + 1) for index, piece in enumerate(pieces)]
-    segments += solver.held(segments[-1])
+    segments += solver.held(segments[-1], pieces[-1].points[-1])
     _check_chain(segments, cycle, solver.named, path)
     _check_closed(segments, solver.named[pieces[-1].points[-1]][1], path)
     return IndicatorDiagram(
         tuple(segment for segment in segments if segment.end > segment.start), solver.named, tuple(solver.jumps)
     )
+
+
+def counts_from_top(points: Mapping[str, DiagramPoint], pieces: Sequence[Piece]) -> bool:
+    """Return whether a diagram is a table over the stroke, which begins where the volume is least."""
+    first = points.get(pieces[0].points[0]) if pieces else None
+    return first is not None and first.stroke == 0.0 and bool(first.inputs)
 
 
 class _Solver:
@@ -248,7 +267,7 @@ class _Solver:
         self.path = path
         self.named: dict[str, tuple[float, float]] = {}
         self.jumps: list[tuple[str, float, float]] = []
-        self.ended = 0.0
+        self.ended, self.level = 0.0, 0.0
 
     def segment(self, number: int, piece: Piece) -> Segment:
         """Solve one piece and remember what it says about its points."""
@@ -261,11 +280,14 @@ class _Solver:
                 return self._constant(key, piece)
             case "polytropic":
                 return self._polytropic(key, piece)
-            case "rounded":
-                return self._rounded(key, piece)
+            case "rounded" | "straight":
+                return self._curve(key, piece)
 
-    def held(self, last: Segment) -> list[Segment]:
-        """Return the rest of the cycle, in which the pressure stays as it is, where the volume does not change then."""
+    def held(self, last: Segment, point: str) -> list[Segment]:
+        """Return the rest of the cycle, in which the pressure stays as it is, where the volume does not change then.
+
+        `point`: the last one.
+        """
         if not self.cycle - last.end > _SAME_ANGLE:
             return []
         volumes = self.volume_at(np.linspace(last.end, self.cycle, _SAMPLES))
@@ -274,10 +296,11 @@ class _Solver:
             return []
         ends = np.array([last.end, self.cycle])
         held = replace(last, start=last.end, end=self.cycle, knots=ends, pressures=np.full(2, last.pressures[-1]))
-        if last.law != "rounded":
+        if last.law in ("constant", "polytropic"):
             return [held]
-        point = last.places[-1].removeprefix(f"{self.path}.points.").removesuffix(".pressure")
-        return [replace(held, law="constant", slopes=np.zeros(2), places=(), origin=point)]
+        stated = self.points[point].inputs[1:]
+        return [replace(held, law="constant", slopes=np.zeros(2), places=(), volumes=None, origin=point,
+                        operands=stated)]  # fmt: skip
 
     def start(self, key: str, name: str) -> float:
         """Return the crank angle of the point where a piece begins: where the one before ended, if it may be. [deg]"""
@@ -288,6 +311,8 @@ class _Solver:
         is_here = abs(float(self.volume_at(np.array([end]))[0]) - self._point_volume(point)) <= _SAME_PLACE * (
             high - low
         )
+        if is_here and point.inputs and self.named:
+            self._compare(name, end, self.level)
         return end if is_here else self.angle(key, name, end)
 
     def angle(self, key: str, name: str, after: float) -> float:
@@ -349,11 +374,16 @@ class _Solver:
 
     def settle(self, name: str, angle: float, pressure: float) -> None:
         """Remember a point; a given pressure other than the computed one is a jump to report."""
+        self._compare(name, angle, pressure)
+        given = self.points[name].pressure
+        self.level = pressure if given is None else given
+        self.named[name] = (angle, self.level)
+        self.ended = angle
+
+    def _compare(self, name: str, angle: float, pressure: float) -> None:
         given = self.points[name].pressure
         if given is not None and abs(given - pressure) > _CLOSING * max(abs(given), abs(pressure)):
             self.jumps.append((name, angle, given - pressure))
-        self.named[name] = (angle, pressure if given is None else given)
-        self.ended = angle
 
     def _constant(self, key: str, piece: Piece) -> Segment:
         first, last = piece.points[0], piece.points[-1]
@@ -422,7 +452,7 @@ class _Solver:
             )
         return solve_monotone(pressure, target, low, high)
 
-    def _rounded(self, key: str, piece: Piece) -> Segment:
+    def _curve(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:
             raise DiagramError(f"{key}.points", ErrorMessage("rounded_points"))
         angles = [self.start(key, piece.points[0])]
@@ -430,16 +460,20 @@ class _Solver:
             angles.append(self.angle(key, name, angles[-1]))
         knots = np.array(angles)
         pressures = np.array([self.pressure(key, name) for name in piece.points])
-        if knots[0] == knots[-1]:
-            slopes = np.zeros_like(knots)
-        elif np.any(np.diff(knots) <= 0):
-            raise DiagramError(f"{key}.points", ErrorMessage("rounded_rises"))
-        else:
+        slopes = np.zeros_like(knots)
+        if knots[0] != knots[-1]:
+            if np.any(np.diff(knots) <= 0):
+                raise DiagramError(f"{key}.points", ErrorMessage("rounded_rises"))
             slopes = monotone_slopes(knots, pressures)
+        centre = float(self._centres_after(knots[0])[0])
+        if piece.law == "straight" and centre < knots[-1] - _SAME_ANGLE:
+            raise DiagramError(f"{key}.points", ErrorMessage("straight_turns", angle=centre))
         for name, angle, pressure in zip(piece.points, knots, pressures, strict=True):
             self.settle(name, float(angle), float(pressure))
         places = tuple(f"{self.path}.points.{name}.pressure" for name in piece.points)
-        return Segment(float(knots[0]), float(knots[-1]), "rounded", knots, pressures, slopes, places=places)
+        volumes = self.volume_at(knots) if piece.law == "straight" else None
+        return Segment(float(knots[0]), float(knots[-1]), piece.law, knots, pressures, slopes, places=places,
+                       volumes=volumes)  # fmt: skip
 
 
 def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tuple[float, float]], path: str) -> None:

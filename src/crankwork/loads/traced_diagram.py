@@ -5,7 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,7 +27,7 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dead_centres import solve_monotone
-from crankwork.loads.curves import CurvePoint, cubic_between, curve_between, monotone_slopes
+from crankwork.loads.curves import CurvePoint, cubic_between, curve_between, line_between, monotone_slopes
 from crankwork.loads.gas import gauge_pressure, polytropic_pressure
 from crankwork.loads.indicator import CONSTANT, DiagramPoint, IndicatorDiagram, Piece, Segment
 from crankwork.loads.valves import StatedValves
@@ -57,16 +58,20 @@ def traced_pressure(
     diagram: IndicatorDiagram,
     volume: TracedValue,
     path: str = "gas",
-    retold: Callable[[], TracedValue] | None = None,
+    retold: Callable[[], TracedValue] | DiagramInput | None = None,
     owner: str = "",
 ) -> TracedValue:
-    """Return the pressure of a diagram as a sequence of laws; `retold`: its form that holds for all inputs.
+    """Return the pressure of a diagram as a sequence of laws.
 
-    `path`: of the diagram in the description; `owner`: the chamber it belongs to, if it is one of a linkage.
+    `retold`: its form that holds for all inputs, or points and laws if it is given by them; `path`: of the diagram in
+    the description; `owner`: the chamber it belongs to, if it is one of a linkage.
     """
-    laws = tuple(_law(diagram, segment, volume, (path, owner)) for segment in diagram.segments)
+    tracer, general = None, retold
+    if isinstance(general, DiagramInput):
+        tracer, general = partial(_DiagramTracer, general, diagram), partial(general.general_form, diagram)
+    laws = tuple(_law(diagram, segment, volume, (path, owner), tracer) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
-    return TracedValue(Piecewise(ends, laws, diagram.breaks.tolist(), retold), _of("diagram_pressure", owner))
+    return TracedValue(Piecewise(ends, laws, diagram.breaks.tolist(), general), _of("diagram_pressure", owner))
 
 
 def _of(key: str, owner: str, name: str = "") -> str:
@@ -116,7 +121,13 @@ def _stated(name: str) -> str:
     return name.rstrip("′")
 
 
-def _law(diagram: IndicatorDiagram, segment: Segment, volume: TracedValue, stated: tuple[str, str]) -> TracedValue:
+def _law(
+    diagram: IndicatorDiagram,
+    segment: Segment,
+    volume: TracedValue,
+    stated: tuple[str, str],
+    tracer: Callable[[], _DiagramTracer] | None,
+) -> TracedValue:
     path, owner = stated
     match segment.law:
         case "constant":
@@ -129,26 +140,34 @@ def _law(diagram: IndicatorDiagram, segment: Segment, volume: TracedValue, state
             p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path, owner)
             return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]
     word = "first_law" if segment.operands else "measured" if segment.is_measured else "curve"
-    return TracedValue(
-        Tabulated(PressureCurve(segment), word, segment.knots.tolist(), segment.operands), "diagram_pressure"
-    )
+    word, over = (word, None) if segment.volumes is None else ("straight", volume)
+    curve = PressureCurve(segment, tracer)
+    return TracedValue(Tabulated(curve, word, segment.knots.tolist(), segment.operands, over), "diagram_pressure")
 
 
 @dataclass(frozen=True)
 class PressureCurve:
-    """The pressure on the curve of a segment. [deg] -> [Pa]"""
+    """The pressure on the curve of a segment over the crank angle [deg], or straight over the volume [m3]. -> [Pa]
+
+    `tracer`: makes that of a diagram which is given by points.
+    """
 
     segment: Segment
+    tracer: Callable[[], _DiagramTracer] | None = field(default=None, compare=False)
 
-    def __call__(self, degrees: Array) -> Array:
-        """Return the pressure at crank angles."""
-        return self.segment.rounded(degrees)
+    def __call__(self, abscissas: Array) -> Array:
+        """Return the pressure at crank angles or volumes."""
+        return self.segment.rounded(abscissas) if self.segment.volumes is None else self.segment.straight(abscissas)
 
-    def between(self, degrees: float, angle: TracedValue) -> TracedValue:
-        """Return the pressure at one crank angle, interpolated between two knots."""
-        knots = self.segment.knots
-        index = int(np.clip(np.searchsorted(knots, degrees, side="right") - 1, 0, len(knots) - 2))
-        return curve_between("diagram_pressure", angle, self._knot(index), self._knot(index + 1))
+    def between(self, abscissa: float, argument: TracedValue) -> TracedValue:
+        """Return the pressure at one crank angle or volume, interpolated between two knots."""
+        volumes = self.segment.volumes
+        knots = self.segment.knots if volumes is None else volumes
+        sense = 1 if knots[-1] >= knots[0] else -1
+        index = int(np.clip(np.searchsorted(sense * knots, sense * abscissa, side="right") - 1, 0, len(knots) - 2))
+        knot = self._knot if self.tracer is None else partial(self.tracer().knot, self.segment)
+        ends = knot(index), knot(index + 1)
+        return curve_between("diagram_pressure", argument, *ends, is_straight=volumes is not None)
 
     def _knot(self, index: int) -> CurvePoint:
         segment = self.segment
@@ -157,6 +176,8 @@ class PressureCurve:
             value = TracedValue(ProcedureValue(pressure, "first_law", segment.operands))
             return CurvePoint(TracedValue(ProcedureValue(math.radians(degrees), "step")), value, math.degrees(slope))
         path = segment.places[index] if segment.places else "cycle.timing"
+        if segment.volumes is not None:
+            return CurvePoint(given("", float(segment.volumes[index]), path), given("", pressure, path))
         angle = given("", math.radians(degrees), path.replace(".pressure", ".angle"))
         return CurvePoint(angle, given("", pressure, path), math.degrees(slope))
 
@@ -259,7 +280,7 @@ class _DiagramTracer:
             first, last = piece.points[0], piece.points[-1]
             if piece.law == "polytropic" and number in segments:
                 self._follow(number, piece, segments[number])
-            elif piece.law != "rounded" and source.points[last].pressure is None:
+            elif piece.law == "constant" and source.points[last].pressure is None:
                 self._pressures.setdefault(last, self._pressure(first))
 
     def laws(self, segment: Segment) -> Iterator[tuple[Value, TracedValue]]:
@@ -269,12 +290,33 @@ class _DiagramTracer:
             angles = [self._angle(name, float(knot)) for name, knot in zip(names, segment.knots, strict=True)]
             yield from curve_laws(angles, [self._pressure(name) for name in names], TracedAngle().degrees)
             return
+        if segment.law == "straight":
+            knots = [self.knot(segment, index) for index in range(len(names))]
+            for index, ((V_i, p_i, _), (V_j, p_j, _)) in enumerate(itertools.pairwise(knots), start=1):
+                law = line_between(p_i, p_j, (self._source.volume - V_i) / (V_j - V_i))
+                yield self._angle(names[index], float(segment.knots[index])), law
+            return
         end = self._angle(names[-1], float(segment.knots[-1]))
         if segment.law == "constant":
             yield end, self._pressure(segment.origin or names[0])
             return
         pressure, volume, exponent = self._polytropes[segment.piece]
         yield end, polytropic_pressure(pressure, volume, self._source.volume, exponent)
+
+    def knot(self, segment: Segment, index: int) -> CurvePoint:
+        """Return a knot of a curve: its volume if it is straight, else its crank angle [rad], and its pressure."""
+        name, degrees = self._source.pieces[segment.piece - 1].points[index], float(segment.knots[index])
+        point, path = self._source.points[name], f"{self._source.path}.points.{name}"
+        if segment.volumes is not None:
+            place = self._volume(name) if point.stroke is None else self._point_volume(name, point)
+        elif point.angle is None:
+            volume = self._point_volume(name, point)
+            place = TracedValue(
+                ProcedureValue(math.radians(degrees), "reached", (self._source.volume,), degrees, volume)
+            )
+        else:
+            place = given("", math.radians(degrees), f"{path}.angle")
+        return CurvePoint(place, self._pressure(name), math.degrees(float(segment.slopes[index])))
 
     def _follow(self, number: int, piece: Piece, segment: Segment) -> None:
         """Store the state of a polytrope and the pressures at both its ends."""
@@ -299,9 +341,9 @@ class _DiagramTracer:
 
     def _pressure(self, name: str) -> TracedValue:
         if name not in self._pressures:
-            point = "" if self._source.pieces == CONSTANT else f".points.{name}"
-            pressure, path = self._source.points[name].pressure, f"{self._source.path}{point}.pressure"
-            self._pressures[name] = given("diagram_pressure", pressure or 0.0, path)
+            point, place = self._source.points[name], "" if self._source.pieces == CONSTANT else f".points.{name}"
+            stated = given("diagram_pressure", point.pressure or 0.0, f"{self._source.path}{place}.pressure")
+            self._pressures[name] = point.inputs[1] if point.inputs else stated
         return self._pressures[name]
 
     def _volume(self, name: str) -> TracedValue:
@@ -323,7 +365,7 @@ class _DiagramTracer:
             if point.stroke is None:
                 self._volumes[name] = given("cylinder_volume", point.volume or 0.0, f"{path}.volume")
             else:
-                share = given("stroke_share", point.stroke, f"{path}.stroke")
+                share = point.inputs[0] if point.inputs else given("travel_share", point.stroke, f"{path}.stroke")
                 self._volumes[name] = self._source.clearance + share * self._source.swept
         return self._volumes[name]
 

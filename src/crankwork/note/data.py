@@ -109,6 +109,8 @@ def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
         yield value_row("cycle_angle", math.radians(machine.gas.cycle), words)
         if machine.gas.is_absolute:
             yield value_row("ambient_pressure", machine.gas.ambient, words)
+        for point in [point for point in machine.gas.points.values() if point.inputs][:1]:
+            yield value_row("listed_pressure_unit", point.inputs[1].node.operands[1].value, words)
     engine = machine.engine
     if engine is not None:
         yield from _engine(engine, words) if len(engine.layout.places) > 1 else ()

@@ -309,6 +309,12 @@ def _points(material: Material) -> Table | None:
         quantity_column(material, "diagram_pressure", pressures),
     ]
     gas = material.machine.gas
+    points = {} if gas is None else gas.points
+    if listed := [points[name].inputs for name, _ in named if name in points and points[name].inputs]:
+        shares = np.array([share.value for share, _ in listed])
+        numbers = np.array([pressure.node.operands[0].value for _, pressure in listed])
+        columns.insert(1, quantity_column(material, "travel_share", shares))
+        columns.insert(4, quantity_column(material, "listed_pressure", numbers))
     if gas is not None and gas.is_absolute:
         columns.append(quantity_column(material, "gas_pressure", pressures - gas.ambient))
     return column_table("points", columns, words)

@@ -84,8 +84,8 @@ def _filling(
 
 def _general_form(
     solved: PreparedCylinder, space: WorkingSpace, trace: Mapping[str, TracedValue], volume: TracedValue
-) -> Callable[[], TracedValue] | None:
-    """Return the general form of the pressure in traced inputs, if there are formulas for it."""
+) -> Callable[[], TracedValue] | DiagramInput | None:
+    """Return the general form of the pressure in traced inputs, or its input, if there are formulas for it."""
     given_gas = space.gas
     if given_gas.measured is not None:
         return None
@@ -94,10 +94,9 @@ def _general_form(
         return None if traced is None else partial(traced, volume, _dead_centres(solved, trace))
     size = trace["clearance_volume"], trace["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
-    data = DiagramInput(
+    return DiagramInput(
         given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved, given_gas.delay)
     )
-    return partial(data.general_form, space.diagram)
 
 
 def _dead_centres(solved: PreparedCylinder, trace: Mapping[str, TracedValue]) -> tuple[Value, Value]:

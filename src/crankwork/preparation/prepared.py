@@ -19,7 +19,7 @@ from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.chamber_gas import NO_GAS, ChamberGas
-from crankwork.loads.indicator import DeadCentres, IndicatorDiagram, solve_diagram
+from crankwork.loads.indicator import DeadCentres, IndicatorDiagram, counts_from_top, solve_diagram
 from crankwork.loads.pressure_processing import PressureReference, measured_diagram
 from crankwork.loads.valves import StatedValves
 from crankwork.locale import ErrorMessage
@@ -193,8 +193,9 @@ def _with_space(solved: _Cylinder, notices: list[Notice]) -> _Cylinder:
     else:
         if gas.valves is not None:
             StatedValves(gas.valves, "gas.valves").check(clearance, swept)
-        # valves open by the volume, wherever the dead centre is
-        begins = solved.begins if gas.valves is None else top
+        # valves open by the volume, and strokes begin, wherever the dead centre is
+        is_from_top = gas.valves is not None or counts_from_top(gas.points, gas.pieces)
+        begins = top + _TURN * round((gas.delay - top) / _TURN) if is_from_top else solved.begins
         ends = ((top - begins) % _TURN, (bottom - begins) % _TURN) if begins else (top, bottom)
         diagram = _given_diagram(gas, lambda degrees: volume_at(degrees + begins), ends, notices).later(begins)
         notices += [Notice("jump", {"point": name, "angle": phi, "step": step}) for name, phi, step in diagram.jumps]

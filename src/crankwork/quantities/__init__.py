@@ -223,7 +223,8 @@ _ENGINE = table(
     series_cosine="mm", series_sine="mm", rod_transfer_1="", rod_transfer_2="", pin_distance="mm", travel_down="deg",
     travel_up="deg", top_dead_centre_angle="deg", bottom_dead_centre_angle="deg",
     # gas
-    gas_pressure="MPa", curve_share="", diagram_pressure="MPa", polytropic_exponent="", ambient_pressure="MPa",
+    gas_pressure="MPa", curve_share="", diagram_pressure="MPa", listed_pressure="", listed_pressure_unit="MPa",
+    polytropic_exponent="", ambient_pressure="MPa",
     pressure_factor="", back_pressure="MPa", indicated_work="J", indicated_mean_pressure="MPa", indicated_power="kW",
     # forces
     gas_force="N or MPa", inertia_force="N or MPa", weight_force="N or MPa", transverse_weight="N or MPa",

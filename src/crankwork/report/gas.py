@@ -84,10 +84,18 @@ def _draw_ambient(engine: Drawn, graph: Graph) -> None:
 
 
 def named_points(engine: Drawn) -> list[tuple[str, float, float]]:
-    """Return the named points of the diagram: name, crank angle [deg] and its pressure [display unit]."""
+    """Return the points of the diagram: name, crank angle [deg] and its pressure [display unit].
+
+    Those of a table over the stroke are too many for names.
+    """
     space = engine.results.solved.space
+    listed = {name for name, point in space.gas.points.items() if point.inputs}
     return [
-        (_short(name), angle, float(_above_zero(engine, engine.shown("gas_pressure", space.gauge(value)))))
+        (
+            "" if name in listed else _short(name),
+            angle,
+            float(_above_zero(engine, engine.shown("gas_pressure", space.gauge(value)))),
+        )
         for name, (angle, value) in space.diagram.named.items()
     ]
 
@@ -109,7 +117,10 @@ def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]]) -> Non
     """
     if points:
         graph.curves["points"] = np.array([point[1] for point in points]), np.array([point[2] for point in points])
-        label_marks(graph.paper, [(name, *graph.point(x, y)) for name, x, y in points], frame=graph.box)
+        places = [(name, *graph.point(x, y)) for name, x, y in points]
+        label_marks(graph.paper, [place for place in places if place[0]], frame=graph.box)
+        for _, x, y in (place for place in places if not place[0]):
+            graph.paper.dot(x, y, 1.5)
 
 
 def banded_sheet(engine: Drawn, height: float, rows: Sequence[Row] = ()) -> tuple[Canvas, ChartBox]:
