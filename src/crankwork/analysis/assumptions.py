@@ -390,7 +390,7 @@ def _idle_shape(results: Results, _: Mapping[str, FileInput], path: str) -> str:
     return "" if stroke.over and stroke.work else "at_once" if stroke.work else "unused"
 
 
-def _has_friction(law: Friction) -> bool:
+def _is_rough(law: Friction) -> bool:
     return isinstance(law, PinFriction) and law.coefficient > 0
 
 
@@ -452,7 +452,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"links\..+\.mass", _idle_place_of_mass),
     (r"sliders\..+\.inertia", lambda results, _, path: "" if _turns(results, _part(path)) else "never_turns"),
-    (r"friction\.circle", lambda told, *_: "" if any(map(_has_friction, told.machine.friction)) else "no_rubbing_pin"),
+    (r"friction\.circle", lambda known, *_: "" if any(map(_is_rough, known.machine.friction)) else "no_rubbing_pin"),
     (r"(torque|load)\.(period|rate)", _idle_period),
     (r"(torque|load)\.strokes\[\d+\]\.(shape|peak)", _idle_shape),
     (r"balance\.rotating_share",
