@@ -61,7 +61,7 @@ def read_data(path: str | Path, *, limit: int = MAX_DATA_FILE, advice: str = "")
             raise CrankworkError(ErrorMessage("path_folder" if stat.S_ISDIR(mode) else "path_odd", path=path))
         with path.open("rb") as stream:
             data = stream.read(limit + 1)
-        _inputs.add(path.resolve())
+        _inputs.add(_real(path))
     except FileNotFoundError:
         raise CrankworkError(ErrorMessage("path_absent", path=path, advice=advice)) from None
     except (OSError, ValueError) as error:
@@ -117,7 +117,7 @@ def _check_new(path: Path, *, overwrite: bool) -> None:
     try:
         if path.exists() and not path.is_file():
             raise CrankworkError(ErrorMessage("name_of_folder" if path.is_dir() else "name_of_odd", path=path))
-        if path.resolve() in _inputs:
+        if _real(path) in _inputs:
             raise CrankworkError(ErrorMessage("place_read", path=path))
         if path.exists() and not overwrite:
             raise CrankworkError(ErrorMessage("name_taken", path=path))
@@ -148,7 +148,7 @@ def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False
 def mark_inputs(*paths: str | Path) -> None:
     """Name files that will be read, so that results cannot replace them; checked before anything is computed."""
     with contextlib.suppress(OSError, ValueError):
-        _inputs.update(Path(path).resolve() for path in paths)
+        _inputs.update(_real(path) for path in paths)
 
 
 def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: bool = False) -> None:
@@ -313,6 +313,11 @@ def _differing(existing: bytes, identity: bytes) -> str:
         return STUDY
 
 
+def _real(path: str | Path) -> Path:
+    """Return the whole path without links; of links that lead to each other one of them."""
+    return Path(os.path.realpath(path))
+
+
 def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
     """Raise unless results may be written into a folder."""
     folder = Path(folder)
@@ -320,8 +325,8 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
         if folder.exists() and not folder.is_dir():
             raise CrankworkError(ErrorMessage("folder_is_file", path=folder))
         # files that a run replaces or deletes without asking
-        for read in (path for path in _inputs if folder.resolve() in path.parents):
-            if (own := read.relative_to(folder.resolve()).parts[0]) in (MANIFEST, MARK) or own.startswith(_STAGING):
+        for read in (path for path in _inputs if _real(folder) in path.parents):
+            if (own := read.relative_to(_real(folder)).parts[0]) in (MANIFEST, MARK) or own.startswith(_STAGING):
                 raise CrankworkError(ErrorMessage("place_read", path=read))
         if folder.is_dir() and not overwrite:
             _check_empty(folder)
@@ -424,7 +429,7 @@ def _check_place(folder: Path, name: str, hashes: list[str]) -> None:
         raise CrankworkError(ErrorMessage("place_linked", path=link))
     if path.is_dir():
         raise CrankworkError(ErrorMessage("place_folder", path=path))
-    if path.resolve() in _inputs:
+    if _real(path) in _inputs:
         raise CrankworkError(ErrorMessage("place_read", path=path))
     if path.exists() and not path.is_symlink() and not _is_as_written(folder, name, hashes):
         raise CrankworkError(ErrorMessage("place_taken", path=path))
@@ -457,7 +462,7 @@ def _earlier(folder: Path) -> dict[str, list[str]]:
 def _is_as_written(folder: Path, name: str, hashes: list[str]) -> bool:
     """Return whether a file is still as a run wrote it, and is neither an input nor a link."""
     path = folder / name
-    if _link(folder, name) is not None or path.is_symlink() or not path.is_file() or path.resolve() in _inputs:
+    if _link(folder, name) is not None or path.is_symlink() or not path.is_file() or _real(path) in _inputs:
         return False
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest() in hashes

@@ -16,7 +16,7 @@ from machine_texts import POINTS_ENGINE
 FILES = machine_files("examples")
 MACHINES = machine_files("tests/machines")
 # computed again some hundred times each
-LONG = ("knuckle-press", "press-start", "andrews-squeezer")
+LONG = ("knuckle-press", "press-start", "andrews-squeezer", "burning", "rubbing-swing")
 QUICK = ("crank-shaper", "engine", "scotch-yoke", "toggle-press", "whole-engine")
 
 
@@ -29,6 +29,12 @@ def test_what_is_told_is_what_has_an_effect(name):
 @pytest.mark.parametrize("name", [name for name in FILES if name not in (*QUICK, *LONG)])
 def test_what_is_told_is_what_has_an_effect_in_every_file(name):
     assert mistold(FILES[name], ROOT / "examples") == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in MACHINES if name not in (*FILES, *LONG)])
+def test_what_is_told_is_what_has_an_effect_in_machines_of_the_tests(name):
+    assert mistold(MACHINES[name], ROOT / "tests" / "machines") == []
 
 
 def codes(results):
@@ -321,3 +327,46 @@ rocker = { joins = ["C", "B"], length = "180 mm" }
     for machine in (text, eccentric):
         assert mistold(machine, ROOT) == []
         assert mistold(machine.replace("[links]", 'inertia_about = "centre"\n[links]'), ROOT) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "reasons"),
+    {
+        "turning-given-rim": {"torque.period": "unused"},
+        "rope-pulley": {"links.pulley.mass": "at_rest"},
+    }.items(),
+)
+def test_a_period_of_harmonics_beside_a_longer_one_and_a_mass_at_rest_are_told(name, reasons):
+    assert idle(analyse(read_machine(MACHINES[name]))).items() >= reasons.items()
+
+
+@pytest.mark.parametrize("shape", ["constant", "triangle"])
+def test_the_shape_of_a_work_that_is_done_at_once_is_told(shape):
+    text = MACHINES["turning-shears"].replace("{ shear_energy", f'{{ shape = "{shape}", shear_energy')
+    assert text != MACHINES["turning-shears"]
+    assert idle(analyse(read_machine(text))) == {"load.strokes[1].shape": "at_once"}
+    assert "load.strokes[1].shape" not in assumed(analyse(read_machine(MACHINES["turning-shears"])))
+
+
+def test_what_an_engine_or_linkage_does_not_use_of_its_method_and_shares_is_told():
+    text = """
+crank = { radius = "50 mm", speed = "300 rpm" }
+rod = { length = "200 mm", mass = "1 kg", small_end_share = 0.3 }
+piston.mass = "0.8 kg"
+method.rod = "two-mass"
+balance.rotating_share = 0.5
+"""
+    assert idle(analyse(read_machine(text))) == {"method.rod": "unused"}
+    light = text.replace(', mass = "1 kg", small_end_share = 0.3', "").replace("piston.mass", "piston . mass")
+    assert idle(analyse(read_machine(light)))["balance.rotating_share"] == "no_rotating_mass"
+    assert mistold(text, ROOT) == []
+
+
+def test_pressures_listed_against_the_rotation_are_those_listed_backwards():
+    text = MACHINES["burning"]
+    begins, ends = text.index("values = [") + 10, text.index("]", text.index("values = ["))
+    backwards = ", ".join(text[begins:ends].replace("\n", "").strip(" ,").split(",")[::-1])
+    other = f"{text[:begins]}{backwards}{text[ends:]}".replace('step = "2 deg"', 'step = "2 deg"\nstart = "2 deg"')
+    other = other.replace("[gas.measured]", "[gas.measured]\nreversed = true")
+    found, expected = (analyse(read_machine(item)).summary for item in (other, text))
+    assert found == pytest.approx(expected, rel=1e-9, nan_ok=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import functools
-import math
 import random
 import re
 import tomllib
@@ -116,7 +115,7 @@ def _put(draw: random.Random, table: Values, spec: TableSpec, name: str, values:
             _put(draw, table, spec, other, values, depth + 1)
 
 
-def _value(draw: random.Random, kind: Any, key: tuple[str, str], values: Values, depth: int) -> Any:  # noqa: C901, PLR0911 - one case for each kind
+def _value(draw: random.Random, kind: Any, key: tuple[str, str], values: Values, depth: int) -> Any:  # noqa: C901, PLR0912 - one case for each kind
     """Return a value of a kind: one that other files have at this key, or one of a likely size."""
     seen = _seen().get(key)
     if seen and draw.random() < 0.7:

@@ -168,6 +168,7 @@ def _not_finite(results: Results) -> list[str]:
 _MAY_BE_ABSENT = (
     "bearing_loads bearing_pressure", "bearing_loads reversal_", "instant_centre_", "stages cooler_heat",
     "stages clearance_volumetric_efficiency", "planes plane_mass", "planes plane_radius", "holzer torsional_stiffness",
+    "holzer shaft_twist",
     "instantaneous_efficiency",
 )  # fmt: skip
 

@@ -79,7 +79,7 @@ def _keys(table: schema.TableSpec, place: Place) -> Iterator[tuple[Place, value_
             yield from _keys(kind, here)
 
 
-def _fitting(kind: value_types.ValueType | None) -> list[Any]:  # noqa: C901 - one case for each kind
+def _fitting(kind: value_types.ValueType | None) -> list[Any]:  # noqa: C901, PLR0912 - one case for each kind
     """Values that a key accepts, its limits first."""
     match kind:
         case value_types.Quantity():

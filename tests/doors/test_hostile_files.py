@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -109,6 +110,17 @@ def test_devices_and_pipes_are_refused_without_waiting(crankwork, check_mistakes
     assert {name: answer.err for name, answer in answers.items() if said not in answer.err} == {}
     for answer in answers.values():
         check_mistakes(answer)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links are those of Unix")
+def test_links_that_lead_to_each_other_are_refused_as_file_and_as_place(
+    crankwork, check_mistakes, machine_file
+) -> None:
+    name = machine_file()
+    Path("one").symlink_to("other")
+    Path("other").symlink_to("one")
+    for words in (("check", "one"), ("run", name, "-o", "one"), ("new", "engine", "-o", "one", "--overwrite")):
+        check_mistakes(crankwork(*words))
 
 
 def test_a_file_that_may_not_be_read_is_refused(crankwork, check_mistakes, monkeypatch) -> None:

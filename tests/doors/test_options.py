@@ -70,6 +70,7 @@ WRONG_COMMANDS = [
     (("new", "../../engine"), "there is no template"),
     (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
     (("check",), "FILE: is missing; write it after the command"),
+    (("solve", "my.toml"), "EQUATION...: is missing; write it after the command"),
     (("zoom", "a"), '"zoom": there is no such command; write new, check, run, report, page, draw, sweep, optimise, '),
     (("schema", "x"), "x: is not expected here; leave it out"),
 ]

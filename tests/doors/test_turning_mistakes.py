@@ -69,6 +69,8 @@ MISTAKES = [
     (LOOPS, ', angle = "3 deg/mm"', "", "torque.scale.angle", "is missing"),
     (LOOPS, "areas", 'at = ["0 deg", "9 deg"]\ntorque = ["1 N*m", "2 N*m"]\nareas', "torque.areas", "says the same"),
     (LOOPS, "areas", "energy_fluctuation = 0.1\n# areas", "torque.energy_fluctuation", "the work of a cycle"),
+    (LOOPS, "areas", "cylinders = 3\nareas", "torque.cylinders", "says the same"),
+    (LOOPS, "[crank]", "[rotor]\nmasses = ['']\n[crank]", "rotor.masses[1]", "must be a table"),
     (PRESS, 'thickness = "32 mm"', "", "load.strokes[1].punch_stroke", "says nothing without thickness"),
     (PRESS, 'hole_diameter = "38 mm"', "", "load.strokes[1].shear_energy", "needs what is sheared"),
     (PRESS, 'shear_energy = "7 J/mm2"', 'shear_strength = "300 MPa"', "load.strokes[1].penetration", "missing"),

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from crankwork.analysis.results import Results
-from crankwork.dynamics.friction import PinFriction
+from crankwork.dynamics.friction import Friction, PinFriction
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.curves import LoadCurve
@@ -225,7 +225,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"torsion\.(orders|.*\.(damping|loss_factor))", lambda results, _, path: any(
         key.startswith("vibration_amplitude") for key in results.summary)
         or ("damped_modes" in results.listings and path != "torsion.orders")),
-    (r"friction\.circle|balance\.rotating_share|.*\.strokes\[\d+\]\.(shape|peak)|.*\.measured\.reversed",
+    (r"friction\.circle|balance\.rotating_share|.*\.strokes\[\d+\]\.(shape|peak)",
      lambda results, stated, path: not _idle(path, stated, results, ())),
 )  # fmt: skip
 
@@ -375,14 +375,12 @@ def _idle_place_of_mass(results: Results, _: Mapping[str, FileInput], path: str)
 
 def _idle_period(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
     """Return whether a torque is the same over twice its period, and the other torque has a longer one."""
-    name = path.partition(".")[0]
-    other, turning = {"torque": "load", "load": "torque"}[name], results.machine.turning
-    given = {key: getattr(turning, key) for key in (name, other)}
-    if turning is None or not {f"{other}.period", f"{other}.rate"} & stated.keys():
+    names, turning = ("torque", "load") if path.startswith("torque") else ("load", "torque"), results.machine.turning
+    own, other = (getattr(turning, name) for name in names)
+    if own.points or own.strokes or any(own.delays) or not own.is_complete or turning is None:
         return ""
-    own, further = given[name], given[other]
-    repeats = own.points or own.strokes or any(own.delays) or not own.is_complete
-    return "" if repeats or common_period(2 * own.period, further.period) != turning.cycle else "unused"
+    is_stated = {f"{names[1]}.period", f"{names[1]}.rate"} & stated.keys()
+    return "unused" if is_stated and common_period(2 * own.period, other.period) == turning.cycle else ""
 
 
 def _idle_shape(results: Results, _: Mapping[str, FileInput], path: str) -> str:
@@ -392,15 +390,14 @@ def _idle_shape(results: Results, _: Mapping[str, FileInput], path: str) -> str:
     return "" if stroke.over and stroke.work else "at_once" if stroke.work else "unused"
 
 
-def _idle_share(results: Results, *_: object) -> str:
-    masses = results.machine.masses
-    return "no_rotating_mass" if masses is not None and not masses.crank + masses.rod_big_end else ""
+def _is_rough(law: Friction) -> bool:
+    return isinstance(law, PinFriction) and law.coefficient > 0
 
 
-def _idle_rod(results: Results, stated: Mapping[str, FileInput], _: str) -> str:
-    """Return whether the rod is no other one as two masses."""
+def _mass_of(results: Results, *names: str) -> float:
+    """Return the sum of masses of a crank gear, 1 of another machine."""
     masses = results.machine.masses
-    return "" if masses is None or masses.rod_inertia_excess or not _is_engine(stated) else "unused"
+    return 1.0 if masses is None else sum(getattr(masses, name) for name in names)
 
 
 def _idle_inertia(results: Results, _: Mapping[str, FileInput], path: str) -> str:
@@ -455,27 +452,22 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"links\..+\.mass", _idle_place_of_mass),
     (r"sliders\..+\.inertia", lambda results, _, path: "" if _turns(results, _part(path)) else "never_turns"),
-    (
-        r"friction\.circle",
-        lambda results, *_: (
-            ""
-            if any(isinstance(law, PinFriction) and law.coefficient for law in results.machine.friction)
-            else "no_rubbing_pin"
-        ),
-    ),
+    (r"friction\.circle", lambda known, *_: "" if any(map(_is_rough, known.machine.friction)) else "no_rubbing_pin"),
     (r"(torque|load)\.(period|rate)", _idle_period),
     (r"(torque|load)\.strokes\[\d+\]\.(shape|peak)", _idle_shape),
-    (r"balance\.rotating_share", _idle_share),
+    (r"balance\.rotating_share",
+     lambda known, *_: "" if _mass_of(known, "crank", "rod_big_end") else "no_rotating_mass"),
     (r"efficiency\.losses", lambda results, *_: "" if results.machine.friction else "unused"),
-    (r"method\.rod", _idle_rod),
-    (r"method\.inertia_rod_ratio", lambda results, stated, _: "" if _is_engine(stated) else "unused"),
+    (r"method\.rod", lambda known, stated, _: "" if not _is_engine(stated) or _mass_of(known, "rod_inertia_excess")
+     else "unused"),
+    (r"method\.inertia_rod_ratio", lambda _, stated, __: "" if _is_engine(stated) else "unused"),
     (r"chambers\.[^.]+\.pressures", lambda _, stated, path: "unused" if f"{path[:-9]}cycle.kind" in stated else ""),
     (_ABOUT, _idle_about),
     (r"links\..+\.(inertia|radius_of_gyration)", _idle_inertia),
     (r"loads\[\d+\]\.acts", _idle_return),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),
-)
+)  # fmt: skip
 
 
 def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) -> str:

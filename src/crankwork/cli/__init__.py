@@ -143,7 +143,7 @@ def _usage_sentence(error: click.ClickException) -> str:
             option = f"{error.param.opts[0]} {placeholder(error.param.metavar or '')}".strip()
             return ErrorMessage("option_missing", option=error.param.opts[0], written=option)
         case click.MissingParameter():
-            name = (error.param.name or "argument").upper() if error.param else "argument"
+            name = (error.param.metavar or error.param.name or "argument").upper() if error.param else "argument"
             return ErrorMessage("argument_missing", argument=placeholder(name))
         case click.BadParameter() if error.param and isinstance(error.param.type, click.Choice):
             match = re.search(r"'(.*)' is not one of", error.message)

@@ -79,6 +79,7 @@ _LINKAGES = (LINKAGE_FILE, UNIT_SPEED_FILE, DRIVEN_FILE, *_TABULATED)
 _ALONE = (TURNING_FILE, ROTOR_FILE, PRESS_FILE, STAGES_FILE, TEST_FILE, TORSION_FILE, CLUTCH_FILE)
 FILES = (*_ENGINES, *_LOADED, *_LINKAGES, *_ALONE)
 _MAX_PARTS = 8
+_LEAST_PRESSURE = 1.0
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # tables that need no mechanism, tables of one, and the keys of a file that has none of these
 _WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
@@ -223,9 +224,8 @@ def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
 def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
     """Return the keys that can never have an effect with the others, with the reason; in files of format 1 few."""
     idle = dict[str, ErrorMessage]()
-    if keys is ROTOR_FILE and not any(
-        mass and mass.si("reciprocating") for mass in (values["rotor"] or {}).get("masses") or ()
-    ):
+    masses = (values["rotor"] or {}).get("masses") or () if keys is ROTOR_FILE else ()
+    if keys is ROTOR_FILE and not any(mass.si("reciprocating") for mass in filter(None, masses)):
         idle["rotor.reciprocating_share"] = ErrorMessage("rotor_no_pistons")
     if values["format"] == 1:
         return idle
@@ -339,6 +339,12 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
         differ = machine.engine is not None and machine.engine.gases
         solved = each_cylinder(first) if differ or machine.test is not None else (first,)
         add_questions(itertools.chain.from_iterable(cylinder.notices for cylinder in solved), values, reader)
+        if machine.gas is not None and machine.gas.combustion is not None and first.space is not None:
+            data, diagram = machine.gas.combustion, first.space.diagram
+            inside = diagram.breaks[(diagram.breaks >= data.start) & (diagram.breaks <= data.end)]
+            for angle in inside[diagram.pressure(inside, inside) < _LEAST_PRESSURE].tolist()[:1]:
+                message = in_file("gas.measured", ErrorMessage("burning_vacuum", angle=angle), values)
+                reader.add_error("gas.measured", message)
         if machine.test is not None:
             from crankwork.preparation.test_bed import check_test  # noqa: PLC0415 - few engines have a test
 

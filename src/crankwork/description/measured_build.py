@@ -83,7 +83,7 @@ class _Columns(NamedTuple):
 
 def read_measured(values: Values, reader: Reader, path: str) -> MeasuredPressure | None:
     """Return the samples of a file, or None after a complaint; `path`: of their owner in the description."""
-    if "step" in values:
+    if "step" in values and not {"file", "values"}.isdisjoint(values):
         return _listed(values, reader, f"{path}.measured")
     if "file" not in values:
         return None
@@ -115,13 +115,17 @@ def read_measured(values: Values, reader: Reader, path: str) -> MeasuredPressure
     pressure = samples[:, 1:] * UNITS[columns.pressure_unit].factor
     if np.all(np.diff(degrees) < 0):
         degrees, pressure, lines = degrees[::-1], pressure[::-1], lines[::-1]
+    if values["reversed"]:
+        degrees, pressure, lines = -degrees[::-1], pressure[::-1], lines[::-1]
     # the name in a note does not depend on the separator of folders
     name = PureWindowsPath(file).name
     first = columns.pressures[0]
     spelled = f"{table.names[first]} {table.written[first]}"
     reference = next((kind for kind, words in _REFERENCES.items() if words.search(spelled)), "")
     return MeasuredPressure(
-        *_forward(values, degrees, pressure, lines),
+        degrees,
+        pressure,
+        lines,
         name,
         table.notices + columns.notices,
         reference=reference,
@@ -150,14 +154,9 @@ def _listed(values: Values, reader: Reader, path: str) -> MeasuredPressure | Non
     pressure = np.array([number for _, number in numbers], dtype=float) * UNITS[values["pressure_unit"]].factor
     degrees = values.degrees("start") + values.degrees("step") * np.arange(len(pressure))
     name, lines = PureWindowsPath(values["file"] or "").name, tuple(line for line, _ in numbers)
-    return MeasuredPressure(*_forward(values, degrees, pressure, lines), name, unit=values["pressure_unit"])
-
-
-def _forward(
-    values: Values, degrees: Array, pressure: Array, lines: tuple[int, ...]
-) -> tuple[Array, Array, tuple[int, ...]]:
-    """Return angles, pressures and lines as the crank turns, also where they are counted against it."""
-    return (-degrees[::-1], pressure[::-1], lines[::-1]) if values["reversed"] else (degrees, pressure, lines)
+    if values["reversed"]:
+        degrees, pressure, lines = -degrees[::-1], pressure[::-1], lines[::-1]
+    return MeasuredPressure(degrees, pressure, lines, name, unit=values["pressure_unit"])
 
 
 def _without_unit(table: FileTable, column: int) -> ErrorMessage:

@@ -214,8 +214,8 @@ class _Reader:
                 self._problem(f"{key}.pivot", ErrorMessage("pivot_unknown", name=pivot))
             if not ratio:
                 self._problem(f"{key}.ratio", ErrorMessage("ratio_zero"))
-            apart = math.dist(*(ground.get(name, (0.0, 0.0)) for name in (pivot, self._table("crank").get("pivot"))))
-            if angle is not None and (ratio == 1 or apart < _TOGETHER):
+            axes = [ground.get(name, (0.0, 0.0)) for name in (pivot, str(self._table("crank").get("pivot")))]
+            if angle is not None and (ratio == 1 or math.dist(*axes) < _TOGETHER):
                 self._problem(f"{key}.pressure_angle", ErrorMessage("wheels_apart"))
             crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, table.get("start", 0.0), angle)
             points = self._points(key, table, {self._table("crank").get("pin"), *ground})

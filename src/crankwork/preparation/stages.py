@@ -30,6 +30,8 @@ _QUANTITIES = {
     "exponent": "compression_exponent", "expansion_exponent": "expansion_exponent", "clearance": "clearance_ratio",
     "volumetric_efficiency": "clearance_volumetric_efficiency",
 }  # fmt: skip
+# logarithm of the largest ratio of pressures that is a number
+_MOST_HEATING = 600.0
 # values that a chamber of a stage takes over, by the fields of its valves
 _OF_VALVES = ("suction", "discharge", "temperature", "exponent", "expansion_exponent", "gas_constant", "free_pressure",
               "free_temperature")  # fmt: skip
@@ -92,7 +94,12 @@ class _Compressor:
             for index in range(len(self.stages.numbers.get("temperatures", ()))):
                 warm = self._given("temperatures", index)
                 cold = warm if warm.value > cold.value else cold
-            limit = formulas.ratio_of_temperature(hot, cold, self._given("exponent"))
+            exponent = self._given("exponent")
+            warmer = math.log(hot.value / cold.value)
+            if warmer <= 0 or exponent.value * warmer > _MOST_HEATING * (exponent.value - 1):
+                stated = {"low": cold.value, "exponent": exponent.value}
+                raise DiagramError("stages.temperature_limit", ErrorMessage("stages_no_limit", **stated))
+            limit = formulas.ratio_of_temperature(hot, cold, exponent)
         limit = self._keep("limit_ratio", limit)
         needed = formulas.needed_stages(self._given("discharge"), self._given("suction"), limit)
         needed = self._keep("needed_stages", needed)
