@@ -39,6 +39,7 @@ MISTAKES = [
     (STAGES, "exponent = 1.3", "exponent = 1", "stages.temperature_limit", "with the exponent 1 keeps"),
     (STAGES, "exponent = 1.3", "exponent = 1.0000001", "stages.temperature_limit", "keeps to no such limit"),
     (BURNING, "43.094", "1e-300", "gas.measured", "no pressure left at 374 deg"),
+    (BURNING, " 1.18103, ", " 1e-300, ", "gas.measured", "no pressure left at"),
     (BURNING, "values = [", "x = [", "gas.measured.x", "unknown key"),
     (BURNING, 'pressure_unit = "bar"\nvalues = [', 'values = "1 mm"\npeg = [', "gas.measured.values", "must be a list"),
     (TEST, "1 N*m", "2 N*m", "test", "no mechanical efficiency follows"),

@@ -340,9 +340,8 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
         solved = each_cylinder(first) if differ or machine.test is not None else (first,)
         add_questions(itertools.chain.from_iterable(cylinder.notices for cylinder in solved), values, reader)
         if machine.gas is not None and machine.gas.combustion is not None and first.space is not None:
-            data, diagram = machine.gas.combustion, first.space.diagram
-            inside = diagram.breaks[(diagram.breaks >= data.start) & (diagram.breaks <= data.end)]
-            for angle in inside[diagram.pressure(inside, inside) < _LEAST_PRESSURE].tolist()[:1]:
+            breaks = first.space.diagram.breaks
+            for angle in breaks[first.space.diagram.pressure(breaks, breaks) < _LEAST_PRESSURE].tolist()[:1]:
                 message = in_file("gas.measured", ErrorMessage("burning_vacuum", angle=angle), values)
                 reader.add_error("gas.measured", message)
         if machine.test is not None:
