@@ -110,21 +110,21 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
 @in_own_units
 def values_text(results: Results, place: float, language: Language = "en") -> str:
     """Return every column at a crank angle [deg] or time [s], with its key."""
-    both = results.complete
-    columns = both.columns_at([both.degrees_of(place) if both.period else place])
-    keys = [key for key in dict.fromkeys((*results.columns, *both.columns)) if key in columns]
+    full = results.complete
+    columns = full.columns_at([full.degrees_of(place) if full.period else place])
+    keys = [key for key in dict.fromkeys((*results.columns, *full.columns)) if key in columns]
     if not keys:
         raise CrankworkError(ErrorMessage("explain_what"))
     # refused by its name where it is beyond the cycle or never reached
-    both.value(next((key for key in keys if not math.isfinite(columns[key][0])), keys[0]), at=place)
+    full.value(next((key for key in keys if not math.isfinite(columns[key][0])), keys[0]), at=place)
     shown = without_rounding({key: columns[key] for key in keys}, results.machine.speed)
-    rows = aligned([_row(both, (key, float(shown[key][0])), language) for key in keys])
+    rows = aligned([_row(full, (key, float(shown[key][0])), language) for key in keys])
     wide = max(map(len, rows))
     return "\n".join(f"{row:<{wide}}  {key}" for row, key in zip(rows, keys, strict=True))
 
 
 def by_subject(results: Results) -> dict[str, dict[str, float]]:
-    """Return the single values by subject, what the both machine does before one cylinder and its working cycle."""
+    """Return the single values by subject, what the whole machine does before one cylinder and its working cycle."""
     values_of: dict[str, dict[str, float]] = {name: {} for name in SUBJECTS}
     for key, value in summary_without_rounding(results).items():
         name = subject(display_key(key, results))
