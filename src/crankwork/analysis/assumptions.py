@@ -376,8 +376,10 @@ def _idle_place_of_mass(results: Results, _: Mapping[str, FileInput], path: str)
 def _idle_period(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
     """Return whether a torque is the same over twice its period, and the other torque has a longer one."""
     names, turning = ("torque", "load") if path.startswith("torque") else ("load", "torque"), results.machine.turning
+    if turning is None:
+        return ""
     own, other = (getattr(turning, name) for name in names)
-    if own.points or own.strokes or any(own.delays) or not own.is_complete or turning is None:
+    if own.points or own.strokes or any(own.delays) or not own.is_complete:
         return ""
     is_stated = {f"{names[1]}.period", f"{names[1]}.rate"} & stated.keys()
     return "unused" if is_stated and common_period(2 * own.period, other.period) == turning.cycle else ""
