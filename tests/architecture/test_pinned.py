@@ -18,8 +18,8 @@ from rules import every_formula
 PINNED = {
     "symbols": "1504f419eb08",
     "formulas": "44847bddb9a7",
-    "quantities": "b57ad93ecfb8",
-    "defaults": "59fd6ef75afd",
+    "quantities": "3e8efa59d97c",
+    "defaults": "ad53ff1670a6",
 }
 
 

@@ -161,7 +161,7 @@ def test_what_a_sheet_leaves_out_is_asked_for(tmp_path: Path, line: str, key: st
     ("changes", "message"),
     [
         ((('peak_pressure = "5.3 MN/m2"', 'peak_pressure = "2 MPa"'),), "pressure ratio of 0.937"),
-        ((('school = "vi"', 'school = "vi"\ntotal_volume = "400 cm3"'),), "total_volume stands beside"),
+        ((('school = "vi"', 'school = "vi"\ntotal_volume = "400 cm3"'),), "stands without the other volumes"),
     ],
 )
 def test_data_that_contradict_one_another_are_refused(

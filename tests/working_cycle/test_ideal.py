@@ -78,7 +78,7 @@ def test_the_dual_cycle_in_30_digits():
         (replace(DIESEL, heat=None), "write heat"),
         (replace(DUAL, heat=None), "write heat, peak_temperature or cut_off as well"),
         (replace(DUAL, pressure_ratio=None), "write pressure_ratio"),
-        (replace(OTTO, peak_temperature=2000.0), "say once"),
+        (replace(OTTO, peak_temperature=2000.0), "more than once"),
         (replace(OTTO, heat=None, cut_off=2.0), "no cut_off"),
         (replace(DIESEL, heat=None, pressure_ratio=2.0), "no pressure_ratio"),
         (replace(OTTO, heat=None, peak_temperature=500.0), "must raise"),
