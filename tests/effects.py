@@ -39,6 +39,8 @@ from expansions import written
 LIMIT, ROUNDING = 1e-9, 1e-13
 # of columns of one cylinder a greater part, so that those of the engine have a change in any case
 _SEEN = 1e-6
+# the place of an extreme, and how little a value changes that has none
+_EXTREME, _FLAT = re.compile("_(max|min)_angle"), 1e-9
 # crank angles at which columns are computed again
 _LOOKS = CrankGrid.from_degrees([17.0, 71.0, 139.0, 223.0, 311.0])
 # tables of a file about all of its cylinders
@@ -165,9 +167,16 @@ def _unit(key: str) -> str:
 
 
 def _values_of(results: Results) -> dict[str, np.ndarray]:
-    values = {**results.columns, **{f"1/{key}": value for key, value in results.summary.items()}}
+    """Return all values, without the places of extremes of what stays the same."""
+    flat = {key for key, value in results.columns.items() if np.ptp(value) <= _FLAT * np.max(np.abs(value))}
+    places = {key: _EXTREME.sub("", key) for key in results.summary if _EXTREME.search(key)}
+    values = {**results.columns, **{f"1/{key}": results[key] for key in results.summary if places.get(key) not in flat}}
     for name, table in results.listings.items():
         values |= {f"{name}/{key}": column for key, column in table.columns.items()}
+        for key in (key for key in table.columns if _EXTREME.search(key)):
+            high, low = (table.columns.get(_EXTREME.sub(end, key)) for end in ("_max", "_min"))
+            if high is not None and low is not None:
+                values[f"{name}/{key}"] = np.where(high - low <= _FLAT * np.abs(high), 0.0, table.columns[key])
     return {key: np.atleast_1d(np.asarray(value, dtype=float)) for key, value in values.items()}
 
 

@@ -32,8 +32,9 @@ def test_what_is_told_is_what_has_an_effect_in_every_file(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in MACHINES if name not in (*FILES, *LONG)])
+@pytest.mark.parametrize("name", [name for name in MACHINES if name not in (*FILES, *LONG)][::4])
 def test_what_is_told_is_what_has_an_effect_in_machines_of_the_tests(name):
+    """Every fourth; the campaign of effects grows machines from all of them."""
     assert mistold(MACHINES[name], ROOT / "tests" / "machines") == []
 
 
