@@ -394,9 +394,18 @@ class Material:
         for row in self._rows(drawn, shown_tables):
             yield from row
             for name in (block.name for block in row if isinstance(block, Figure)):
-                read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
+                read = reading(kind_of(name), self, *self._owners(name)[:1])
                 if read is not None:
                     yield read
+
+    def _owners(self, name: str) -> tuple[str, ...]:
+        """Return the crankpins that a figure shows, or the sliding piece or vessel that one of several shows."""
+        part, key = _PARTS_OF_FIGURES.get(kind_of(name), ("", ""))
+        if not part:
+            return crankpins(name, self.results.columns)
+        owners = [owner for owner in getattr(self.machine, part) if f"{key}.{owner}" in self.columns]
+        number = name.rpartition("_")[2]
+        return (owners[int(number) - 1 if number.isdecimal() else 0],)
 
     def _referring(self, tables: Sequence[str], names: Sequence[str]) -> Iterator[Runs]:
         """Yield the sentences that refer to tables by label and to figures by name; a linkage has many kinds."""
@@ -551,6 +560,8 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "balance_orders": ("free_force", "free_moment"),
     "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
 }
+# parts of a machine of which each has a figure where it has a column
+_PARTS_OF_FIGURES = {"rod_loads": ("crossheads", "crosshead_load"), "pump_flow": ("vessels", "vessel_flow")}
 # figures that show each crankpin whose load is another
 _OF_CRANKPINS = ("crankpin_polar", "crankpin_load", "crankpin_wear")
 _OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
