@@ -398,14 +398,13 @@ class Material:
                 if read is not None:
                     yield read
 
-    def _owners(self, name: str) -> tuple[str, ...]:
+    def _owners(self, name: str) -> Sequence[str]:
         """Return the crankpins that a figure shows, or the sliding piece or vessel that one of several shows."""
-        part, key = _PARTS_OF_FIGURES.get(kind_of(name), ("", ""))
-        if not part:
+        key, number = _OF_EACH.get(kind_of(name)), name.rpartition("_")[2]
+        if key is None:
             return crankpins(name, self.results.columns)
-        owners = [owner for owner in getattr(self.machine, part) if f"{key}.{owner}" in self.columns]
-        number = name.rpartition("_")[2]
-        return (owners[int(number) - 1 if number.isdecimal() else 0],)
+        owners = [key_of(column).owner for column in named(self.columns, key)]
+        return owners[int(number) - 1 if number.isdecimal() else 0 :]
 
     def _referring(self, tables: Sequence[str], names: Sequence[str]) -> Iterator[Runs]:
         """Yield the sentences that refer to tables by label and to figures by name; a linkage has many kinds."""
@@ -560,8 +559,8 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "balance_orders": ("free_force", "free_moment"),
     "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
 }
-# parts of a machine of which each has a figure where it has a column
-_PARTS_OF_FIGURES = {"rod_loads": ("crossheads", "crosshead_load"), "pump_flow": ("vessels", "vessel_flow")}
+# columns of which each has a figure
+_OF_EACH = {"rod_loads": "crosshead_load", "pump_flow": "vessel_flow"}
 # figures that show each crankpin whose load is another
 _OF_CRANKPINS = ("crankpin_polar", "crankpin_load", "crankpin_wear")
 _OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}

@@ -90,11 +90,9 @@ def _known(kind: str, material: Material, pin: str) -> dict[str, tuple[float, fl
     """Return the values that a sentence tells, with the angles where they are reached; none unless all are known."""
     summary, listed = material.summary, dict[str, tuple[float, float | None]]()
     for key in _VALUES.get(kind, ()):
-        own = next((name for name in (key, f"{key}.{pin}") if name in summary), None)
-        if own is None:
-            return {}
+        own = key if key in summary else f"{key}.{pin}"
         place = key_of(own).derived("_angle")
-        if key.endswith(("_max", "_min")) and place not in summary:
+        if own not in summary or (key.endswith(("_max", "_min")) and place not in summary):
             return {}
         listed[key] = (summary[own], summary.get(place))
     return listed
@@ -274,14 +272,13 @@ def _of_output(material: Material) -> Paragraph | None:
 
 def _of_bearing(kind: str, sentence: str, material: Material) -> Paragraph | None:
     """Return the sentence on the bearing of a kind with the largest load."""
-    words, listing = material.words, material.results.listings.get("bearing_loads")
-    rows = [row for row, name in enumerate(listing.names) if name.startswith(kind)] if listing else []
-    if listing is None or not rows:
+    words, listing = material.words, material.results.listings["bearing_loads"]
+    rows = [row for row, name in enumerate(listing.names) if name.startswith(kind)]
+    if not rows:
         return None
     area, columns, values = material.area("bearing_load_max"), listing.columns, dict[str, str]()
     load = columns["bearing_load_max"]
-    largest = max(float(load[index]) for index in rows)
-    row, *equal = (index for index in rows if load[index] >= largest * (1 - ROUNDING))
+    row, *equal = (index for index in rows if load[index] >= max(load[rows]) * (1 - ROUNDING))
     numbers = "".join(f", {listing.names[index].rpartition('.')[2]}" for index in equal)
     for end in ("max", "min"):
         value = float(columns[f"bearing_load_{end}"][row]) / (area or 1.0)
@@ -292,33 +289,29 @@ def _of_bearing(kind: str, sentence: str, material: Material) -> Paragraph | Non
 
 def _of_wear(material: Material) -> Paragraph | None:
     """Return the sentence on the ray of a crankpin that is worn most."""
-    words, listing = material.words, material.results.listings.get("crankpin_wear")
-    columns = listing.columns if listing else {}
+    words, columns = material.words, material.results.listings["crankpin_wear"].columns
     sums = {key: values for key, values in columns.items() if key.startswith("wear_sum") and np.ptp(values) > 0}
     if not sums:
         return None
     key = max(sums, key=lambda pin: float(np.max(sums[pin])))
-    name = row_name(key.replace("wear_sum", "crankpin"), words.language)
-    ray = float(columns["wear_ray_angle"][np.argmax(sums[key])])
-    return words.paragraph("reads_wear", name=name, angle=words.angle(ray))
+    ray, name = float(columns["wear_ray_angle"][np.argmax(sums[key])]), key.replace("wear_sum", "crankpin")
+    return words.paragraph("reads_wear", name=row_name(name, words.language), angle=words.angle(ray))
 
 
-def _of_displacement(material: Material) -> Paragraph | None:
+def _of_displacement(material: Material) -> Paragraph:
     """Return the sentence on how far a piston is at a right angle of the crank."""
-    words, stroke, key = material.words, material.summary.get("stroke", 0.0), "piston_displacement"
-    if not stroke or key not in material.columns:
-        return None
+    words, key = material.words, "piston_displacement"
     value = float(material.results.columns_at(np.array([90.0]), (key,))[key][0])
-    return words.paragraph("reads_brix", angle=words.angle(0.5 * math.pi),
-                           value=words.amount(value, key_unit(key), digits=4),
-                           share=words.number(100.0 * value / stroke, digits=3))  # fmt: skip
+    share = words.number(100.0 * value / material.summary["stroke"], digits=4)
+    shown = words.amount(value, key_unit(key), digits=4)
+    return words.paragraph("reads_brix", angle=words.angle(0.5 * math.pi), value=shown, share=share)
 
 
-def _of_excess(material: Material) -> Paragraph | None:
+def _of_excess(material: Material) -> Paragraph:
     """Return the sentence on the excess work of the total torque at constant speed."""
-    keys = [key for key in ("excess_work.mertsalov", "excess_work") if material.summary.get(key, 0.0) > 0]
-    shown = [material.words.amount(material.summary[key], key_unit(key), digits=4) for key in keys[:1]]
-    return material.words.paragraph("reads_excess", value=shown[0]) if shown else None
+    words, summary, key = material.words, material.summary, "excess_work"
+    shown = words.amount(summary.get(f"{key}.mertsalov", summary[key]), key_unit(key), digits=4)
+    return words.paragraph("reads_excess", value=shown)
 
 
 _OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
@@ -328,6 +321,7 @@ _OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
     "crankpin_load": partial(_of_bearing, "crankpin", "reads_load"), "excess_work": _of_excess,
     "big_end_polar": partial(_of_bearing, "big_end", "reads_load"),
     "main_journal_polar": partial(_of_bearing, "main_journal", "reads_mains"),
-    **{kind: lambda material, kind=kind: _of_torsion(material).get(kind)
-       for kind in ("torsional_modes", "campbell", "torsional_response")},
+    "torsional_modes": lambda material: _of_torsion(material).get("torsional_modes"),
+    "torsional_response": lambda material: _of_torsion(material).get("torsional_response"),
+    "campbell": lambda material: _of_torsion(material).get("campbell"),
 }  # fmt: skip
