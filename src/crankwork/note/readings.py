@@ -20,12 +20,14 @@ if TYPE_CHECKING:
 # kind of figure: the single values that its sentence tells, of which each must be known
 _VALUES: Mapping[str, tuple[str, ...]] = {
     "kinematics": ("piston_velocity_max", "piston_acceleration_max"),
+    "brix": ("stroke",),
     "tolle": ("piston_acceleration_max", "piston_acceleration_min", "piston_velocity_max"),
     "pressure": ("gas_pressure_max",),
     "indicator": ("indicated_work", "indicated_mean_pressure"),
     "stage_indicator": ("stage_power", "single_stage_power"),
     "rod_loads": ("piston_rod_load_max", "piston_rod_load_min"),
     "pump_flow": ("vessel_flow_max", "vessel_flow_min", "flow_pulsation"),
+    "excess_work": ("excess_work",),
     "turning_moment": ("mean_torque", "excess_work"),
     "speed": ("crank_speed_max", "crank_speed_min"),
     "piston_forces": ("piston_force_max", "piston_force_min"),
@@ -59,10 +61,11 @@ _PARTS = ("gas_force", "inertia_force")
 
 def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
     """Return the sentence that reads a figure of some kind, of one of several crankpins; None where it has none."""
-    known = _known(kind, material, pin)
+    known, mean = _known(kind, material, pin), material.summary.get("mean_torque", 0.0)
     if kind in _OF_MACHINES:
         return _OF_MACHINES[kind](material)
-    if not known or (kind == "piston_forces" and not {*_PARTS} <= material.columns.keys()):
+    parts_known = kind != "piston_forces" or {*_PARTS} <= material.columns.keys()
+    if not known or not parts_known or (kind == "total_torque" and not mean):
         return None
     words, values = material.words, dict[str, str]()
     for key, (value, angle) in known.items():
@@ -78,11 +81,14 @@ def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
             unit = key_unit("gas_force", per_area=material.per_area)
             values |= {f"{key}_{end}": words.amount(float(parts[key][0]) / area, unit, digits=4) for key in _PARTS}
     if kind == "total_torque":
-        mean = material.summary.get("mean_torque", 0.0)
-        if not mean:
-            return None
         values["mean"] = words.amount(mean, "N*m", digits=4)
         values["ratio"] = words.number(max(abs(value) for value, _ in known.values()) / abs(mean), digits=2)
+    if kind == "brix":
+        way = material.results.columns_at(np.array([90.0]), ("piston_displacement",))["piston_displacement"][0]
+        values |= {"angle": words.angle(0.5 * math.pi), "value": words.amount(way, key_unit("stroke"), digits=4),
+                   "share": words.number(100.0 * way / known["stroke"][0], digits=4)}  # fmt: skip
+    if kind == "excess_work" and "excess_work.mertsalov" in material.summary:
+        values[kind] = words.amount(material.summary["excess_work.mertsalov"], "J", digits=4)
     return words.paragraph(f"reads_{kind}", **values)
 
 
@@ -101,19 +107,12 @@ def _known(kind: str, material: Material, pin: str) -> dict[str, tuple[float, fl
 def _of_largest(kind: str, sentence: str, material: Material) -> Paragraph | None:
     """Return the sentence on the joint, or the chamber, with the largest value of a kind."""
     words, summary = material.words, material.summary
-    forces = {key: value for key, value in summary.items() if key_of(key).quantity == f"{kind}_max"}
-    if not forces:
+    reached = {key: key_of(key).derived("_angle") for key in summary if key_of(key).quantity == f"{kind}_max"}
+    key = max(reached, key=summary.__getitem__, default="")
+    if reached.get(key) not in summary:
         return None
-    key = max(forces, key=forces.__getitem__)
-    angle = summary.get(key_of(key).derived("_angle"))
-    if angle is None:
-        return None
-    return words.paragraph(
-        sentence,
-        name=own_name(kind, key_of(key).owner),
-        value=words.amount(forces[key], key_unit(key), digits=4),
-        angle=words.angle(angle),
-    )
+    name, angle = own_name(kind, key_of(key).owner), words.angle(summary[reached[key]])
+    return words.paragraph(sentence, name=name, value=words.amount(summary[key], key_unit(key), digits=4), angle=angle)
 
 
 def _of_rotor(material: Material) -> Paragraph | None:
@@ -298,27 +297,11 @@ def _of_wear(material: Material) -> Paragraph | None:
     return words.paragraph("reads_wear", name=row_name(name, words.language), angle=words.angle(ray))
 
 
-def _of_displacement(material: Material) -> Paragraph:
-    """Return the sentence on how far a piston is at a right angle of the crank."""
-    words, key = material.words, "piston_displacement"
-    value = float(material.results.columns_at(np.array([90.0]), (key,))[key][0])
-    share = words.number(100.0 * value / material.summary["stroke"], digits=4)
-    shown = words.amount(value, key_unit(key), digits=4)
-    return words.paragraph("reads_brix", angle=words.angle(0.5 * math.pi), value=shown, share=share)
-
-
-def _of_excess(material: Material) -> Paragraph:
-    """Return the sentence on the excess work of the total torque at constant speed."""
-    words, summary, key = material.words, material.summary, "excess_work"
-    shown = words.amount(summary.get(f"{key}.mertsalov", summary[key]), key_unit(key), digits=4)
-    return words.paragraph("reads_excess", value=shown)
-
-
 _OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
     "joint_forces": partial(_of_largest, "joint_force", "reads_joint_forces"),
     "chambers": partial(_of_largest, "gas_pressure", "reads_chambers"), "sliders": _of_output, "unbalanced": _of_rotor,
-    "hammer_blow": _of_hammer, "brix": _of_displacement, "crankpin_wear": _of_wear, "balance_orders": _of_orders,
-    "crankpin_load": partial(_of_bearing, "crankpin", "reads_load"), "excess_work": _of_excess,
+    "hammer_blow": _of_hammer, "crankpin_wear": _of_wear, "balance_orders": _of_orders,
+    "crankpin_load": partial(_of_bearing, "crankpin", "reads_load"),
     "big_end_polar": partial(_of_bearing, "big_end", "reads_load"),
     "main_journal_polar": partial(_of_bearing, "main_journal", "reads_mains"),
     "torsional_modes": lambda material: _of_torsion(material).get("torsional_modes"),
