@@ -248,7 +248,7 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     again = "" if is_kept else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
     # words need less room between their rows than numbers
-    close = ", inset: (x: 4pt, y: 1.7pt)" if block.label == DIVIDED else ""
+    close = ", inset: (x: 4pt, y: 2pt)" if block.label == DIVIDED else ""
     columns = _columns(block, size, marked=not is_kept) + close
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
