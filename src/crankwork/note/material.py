@@ -394,9 +394,17 @@ class Material:
         for row in self._rows(drawn, shown_tables):
             yield from row
             for name in (block.name for block in row if isinstance(block, Figure)):
-                read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
+                read = reading(kind_of(name), self, *self._owners(name)[:1])
                 if read is not None:
                     yield read
+
+    def _owners(self, name: str) -> Sequence[str]:
+        """Return the crankpins that a figure shows, or the sliding piece or vessel that one of several shows."""
+        key, number = _OF_EACH.get(kind_of(name)), name.rpartition("_")[2]
+        if key is None:
+            return crankpins(name, self.results.columns)
+        owners = [key_of(column).owner for column in named(self.columns, key)]
+        return owners[int(number) - 1 if number.isdecimal() else 0 :]
 
     def _referring(self, tables: Sequence[str], names: Sequence[str]) -> Iterator[Runs]:
         """Yield the sentences that refer to tables by label and to figures by name; a linkage has many kinds."""
@@ -551,6 +559,8 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "balance_orders": ("free_force", "free_moment"),
     "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
 }
+# columns of which each has a figure
+_OF_EACH = {"rod_loads": "crosshead_load", "pump_flow": "vessel_flow"}
 # figures that show each crankpin whose load is another
 _OF_CRANKPINS = ("crankpin_polar", "crankpin_load", "crankpin_wear")
 _OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}

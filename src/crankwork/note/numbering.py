@@ -40,7 +40,7 @@ _LONG, LINE, _BEGINS = 1.2 * PAGE, 16.0, 90.0
 # height of the caption of a figure [pt], by what share its height may be wrong, what share of its size it keeps
 _CAPTION, _TOLERANCE, _SMALLEST = 36.0, 0.02, 0.8
 # rows of a table that stays on one page with its caption, and the list of symbols, which may be divided anywhere
-TOGETHER, _DIVIDED = 20, "t:nomenclature"
+TOGETHER, DIVIDED = 20, "t:nomenclature"
 
 
 class Numbering(NamedTuple):
@@ -165,7 +165,7 @@ def leads(block: Block) -> bool:
 def is_whole(block: Block) -> bool:
     """Return whether a block stands on one page, and may wait for it."""
     if isinstance(block, Table):
-        return not block.wide and len(block.rows) <= TOGETHER and block.label != _DIVIDED
+        return not block.wide and len(block.rows) <= TOGETHER and block.label != DIVIDED
     return isinstance(block, Figure)
 
 

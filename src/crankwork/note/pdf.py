@@ -53,7 +53,7 @@ from crankwork.note.layout import (
     width,
 )
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import TOGETHER, Numbering, flow, is_whole, leads, numbering
+from crankwork.note.numbering import DIVIDED, TOGETHER, Numbering, flow, is_whole, leads, numbering
 from crankwork.note.symbols import symbol_box
 from crankwork.note.table_width import SIZES, fits, one_line_widths, room
 from crankwork.quantities import Language
@@ -247,7 +247,9 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     )
     again = "" if is_kept else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
-    columns = _columns(block, size, marked=not is_kept)
+    # words need less room between their rows than numbers
+    close = ", inset: (x: 4pt, y: 2pt)" if block.label == DIVIDED else ""
+    columns = _columns(block, size, marked=not is_kept) + close
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
         f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_kept)}), {header},\n{rows}))\n}}"

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankwork.note.document import Citation, Paragraph
+from crankwork.note.document import Citation, Paragraph, Run
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import own_name
 from crankwork.report.display import key_unit, link_label, row_name
@@ -19,7 +20,16 @@ if TYPE_CHECKING:
 # kind of figure: the single values that its sentence tells, of which each must be known
 _VALUES: Mapping[str, tuple[str, ...]] = {
     "kinematics": ("piston_velocity_max", "piston_acceleration_max"),
+    "brix": ("stroke",),
+    "tolle": ("piston_acceleration_max", "piston_acceleration_min", "piston_velocity_max"),
     "pressure": ("gas_pressure_max",),
+    "indicator": ("indicated_work", "indicated_mean_pressure"),
+    "stage_indicator": ("stage_power", "single_stage_power"),
+    "rod_loads": ("piston_rod_load_max", "piston_rod_load_min"),
+    "pump_flow": ("vessel_flow_max", "vessel_flow_min", "flow_pulsation"),
+    "excess_work": ("excess_work",),
+    "turning_moment": ("mean_torque", "excess_work"),
+    "speed": ("crank_speed_max", "crank_speed_min"),
     "piston_forces": ("piston_force_max", "piston_force_min"),
     "crankpin_forces": ("tangential_force_max", "tangential_force_min"),
     "total_torque": ("total_torque_max", "total_torque_min"),
@@ -51,10 +61,11 @@ _PARTS = ("gas_force", "inertia_force")
 
 def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
     """Return the sentence that reads a figure of some kind, of one of several crankpins; None where it has none."""
-    known = _known(kind, material, pin)
+    known, mean = _known(kind, material, pin), material.summary.get("mean_torque", 0.0)
     if kind in _OF_MACHINES:
         return _OF_MACHINES[kind](material)
-    if not known or (kind == "piston_forces" and not {*_PARTS} <= material.columns.keys()):
+    parts_known = kind != "piston_forces" or {*_PARTS} <= material.columns.keys()
+    if not known or not parts_known or (kind == "total_torque" and not mean):
         return None
     words, values = material.words, dict[str, str]()
     for key, (value, angle) in known.items():
@@ -70,11 +81,14 @@ def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
             unit = key_unit("gas_force", per_area=material.per_area)
             values |= {f"{key}_{end}": words.amount(float(parts[key][0]) / area, unit, digits=4) for key in _PARTS}
     if kind == "total_torque":
-        mean = material.summary.get("mean_torque", 0.0)
-        if not mean:
-            return None
         values["mean"] = words.amount(mean, "N*m", digits=4)
         values["ratio"] = words.number(max(abs(value) for value, _ in known.values()) / abs(mean), digits=2)
+    if kind == "brix":
+        way = material.results.columns_at(np.array([90.0]), ("piston_displacement",))["piston_displacement"][0]
+        values |= {"angle": words.angle(0.5 * math.pi), "value": words.amount(way, key_unit("stroke"), digits=4),
+                   "share": words.number(100.0 * way / known["stroke"][0], digits=4)}  # fmt: skip
+    if kind == "excess_work" and "excess_work.mertsalov" in material.summary:
+        values[kind] = words.amount(material.summary["excess_work.mertsalov"], "J", digits=4)
     return words.paragraph(f"reads_{kind}", **values)
 
 
@@ -82,32 +96,23 @@ def _known(kind: str, material: Material, pin: str) -> dict[str, tuple[float, fl
     """Return the values that a sentence tells, with the angles where they are reached; none unless all are known."""
     summary, listed = material.summary, dict[str, tuple[float, float | None]]()
     for key in _VALUES.get(kind, ()):
-        own = next((name for name in (key, f"{key}.{pin}") if name in summary), None)
-        if own is None:
-            return {}
+        own = key if key in summary else f"{key}.{pin}"
         place = key_of(own).derived("_angle")
-        if key.endswith(("_max", "_min")) and place not in summary:
+        if own not in summary or (key.endswith(("_max", "_min")) and place not in summary):
             return {}
         listed[key] = (summary[own], summary.get(place))
     return listed
 
 
-def _of_joints(material: Material) -> Paragraph | None:
-    """Return the sentence on the joint with the largest force."""
+def _of_largest(kind: str, sentence: str, material: Material) -> Paragraph | None:
+    """Return the sentence on the joint, or the chamber, with the largest value of a kind."""
     words, summary = material.words, material.summary
-    forces = {key: value for key, value in summary.items() if key_of(key).quantity == "joint_force_max"}
-    if not forces:
+    reached = {key: key_of(key).derived("_angle") for key in summary if key_of(key).quantity == f"{kind}_max"}
+    key = max(reached, key=summary.__getitem__, default="")
+    if reached.get(key) not in summary:
         return None
-    key = max(forces, key=forces.__getitem__)
-    angle = summary.get(key_of(key).derived("_angle"))
-    if angle is None:
-        return None
-    return words.paragraph(
-        "reads_joint_forces",
-        name=own_name("joint_force", key_of(key).owner),
-        value=words.amount(forces[key], key_unit(key), digits=4),
-        angle=words.angle(angle),
-    )
+    name, angle = own_name(kind, key_of(key).owner), words.angle(summary[reached[key]])
+    return words.paragraph(sentence, name=name, value=words.amount(summary[key], key_unit(key), digits=4), angle=angle)
 
 
 def _of_rotor(material: Material) -> Paragraph | None:
@@ -151,38 +156,53 @@ def concluded(material: Material) -> Iterator[Paragraph]:
         odd = [notice for notice in results.notices if {"low", "high"} <= notice.values.keys()]
         sentences.insert(1, words.paragraph("reads_cycle_odd" if odd else "reads_cycle", source=Citation(_USUAL)))
     if "bearing_loads" in results.listings and material.has_engine:
-        sentences.append(_of_mains(material))
+        sentences.append(reading("main_journal_polar", material))
     sentences.append(reading("evenness", material))
     if "balance" in results.listings:
-        free = {key_of(key).owner.rpartition(".")[2]: value for key, value in summary.items()
-                if key_of(key).quantity == "free_force"}  # fmt: skip
-        order = max(free, key=free.__getitem__, default="")
-        values = {"order": order, "value": words.amount(free[order], key_unit("free_force"), digits=4)} if order else {}
-        sentences.append(words.paragraph("reads_free" if order else "reads_balanced", **values))
+        sentences.append(_of_orders(material))
     yield from (paragraph for paragraph in sentences if paragraph is not None)
-    yield from _of_torsion(material)
+    yield from _of_torsion(material).values()
 
 
-def _of_torsion(material: Material) -> Iterator[Paragraph]:
-    """Yield what torsional vibration means: its lowest frequency, its strongest resonance, its largest stress."""
+def _of_orders(material: Material) -> Paragraph:
+    """Return the sentences on the largest free force, and on the largest free moment where there is one."""
+    words, runs = material.words, list[Run]()
+    for kind in ("free_force", "free_moment"):
+        free = {key_of(key).owner.rpartition(".")[2]: value for key, value in material.summary.items()
+                if key_of(key).quantity == kind}  # fmt: skip
+        order = max(free, key=free.__getitem__, default="")
+        if order:
+            shown = words.amount(free[order], key_unit(kind), digits=4)
+            runs += [" ", *words.sentence(f"reads_{kind}", order=order, value=shown)]
+        elif not runs:
+            runs += [" ", *words.sentence("reads_balanced")]
+    return Paragraph(tuple(runs[1:]))
+
+
+def _of_torsion(material: Material) -> dict[str, Paragraph]:
+    """Return what figures of torsional vibration mean: lowest frequency, strongest resonance, largest stress."""
     words, summary, critical = material.words, material.summary, material.results.listings.get("critical_speeds")
+    read = dict[str, Paragraph]()
     lowest = "natural_frequency.1"
     if lowest in summary:
         shown = words.amount(summary[lowest], key_unit(lowest), digits=4)
-        yield words.paragraph("reads_torsion", natural_frequency=shown)
+        read["torsional_modes"] = words.paragraph("reads_torsion", natural_frequency=shown)
     if critical is not None and critical.columns["critical_speed"].size:
         row = int(np.argmax(np.abs(critical.columns["excitation_torque"])))
         mode, order, speed = (
             float(critical.columns[key][row]) for key in ("mode_number", "harmonic_order", "critical_speed")
         )
-        yield words.paragraph("reads_critical", order=words.number(order), mode=words.number(mode),
-                              critical_speed=words.amount(speed, "rpm", digits=4))  # fmt: skip
+        read["campbell"] = words.paragraph(
+            "reads_critical", order=words.number(order), mode=words.number(mode),
+            critical_speed=words.amount(speed, "rpm", digits=4),
+        )  # fmt: skip
     stresses = [key for key in summary if key_of(key).quantity == "vibration_stress"]
     if stresses:
         largest = max(stresses, key=summary.__getitem__)
         name = link_label(key_of(largest).owner, words.language)
         shown = words.amount(summary[largest], key_unit(largest), digits=4)
-        yield words.paragraph("reads_vibration", value=shown, name=name)
+        read["torsional_response"] = words.paragraph("reads_vibration", value=shown, name=name)
+    return read
 
 
 def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
@@ -190,7 +210,7 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
     words, summary, checks = material.words, material.summary, material.results.checks
     sentences = (_of_output(material), reading("joint_forces", material), reading("torques", material),
                  *(reading(kind, material) for kind in ("stages", "test", "clutch", "engagement")),
-                 *_of_torsion(material))  # fmt: skip
+                 *_of_torsion(material).values())  # fmt: skip
     yield from (sentence for sentence in sentences if sentence is not None)
     masses = {key_of(key).owner: value for key, value in summary.items() if key_of(key).quantity == "plane_mass"}
     balanced = [
@@ -249,27 +269,42 @@ def _of_output(material: Material) -> Paragraph | None:
     return None
 
 
-_OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
-    "joint_forces": _of_joints, "sliders": _of_output, "unbalanced": _of_rotor, "hammer_blow": _of_hammer,
-}  # fmt: skip
-
-
-def _of_mains(material: Material) -> Paragraph | None:
-    """Return the sentence on the main journal with the largest load."""
+def _of_bearing(kind: str, sentence: str, material: Material) -> Paragraph | None:
+    """Return the sentence on the bearing of a kind with the largest load."""
     words, listing = material.words, material.results.listings["bearing_loads"]
-    rows = [row for row, name in enumerate(listing.names) if name.startswith("main_journal")]
+    rows = [row for row, name in enumerate(listing.names) if name.startswith(kind)]
     if not rows:
         return None
-    area = material.area("bearing_load_max")
-    load, angle = (listing.columns[f"bearing_load_max{place}"] for place in ("", "_angle"))
-    largest = max(float(load[index]) for index in rows)
-    row, *equal = (index for index in rows if load[index] >= largest * (1 - ROUNDING))
+    area, columns, values = material.area("bearing_load_max"), listing.columns, dict[str, str]()
+    load = columns["bearing_load_max"]
+    row, *equal = (index for index in rows if load[index] >= max(load[rows]) * (1 - ROUNDING))
     numbers = "".join(f", {listing.names[index].rpartition('.')[2]}" for index in equal)
-    return words.paragraph(
-        "reads_mains",
-        name=f"{row_name(listing.names[row], words.language)}{numbers}",
-        value=words.amount(
-            float(load[row]) / (area or 1.0), key_unit("bearing_load_max", per_area=bool(area)), digits=4
-        ),
-        angle=words.angle(float(angle[row])),
-    )
+    for end in ("max", "min"):
+        value = float(columns[f"bearing_load_{end}"][row]) / (area or 1.0)
+        values[end] = words.amount(value, key_unit("bearing_load_max", per_area=bool(area)), digits=4)
+        values[f"{end}_angle"] = words.angle(float(columns[f"bearing_load_{end}_angle"][row]))
+    return words.paragraph(sentence, name=f"{row_name(listing.names[row], words.language)}{numbers}", **values)
+
+
+def _of_wear(material: Material) -> Paragraph | None:
+    """Return the sentence on the ray of a crankpin that is worn most."""
+    words, columns = material.words, material.results.listings["crankpin_wear"].columns
+    sums = {key: values for key, values in columns.items() if key.startswith("wear_sum") and np.ptp(values) > 0}
+    if not sums:
+        return None
+    key = max(sums, key=lambda pin: float(np.max(sums[pin])))
+    ray, name = float(columns["wear_ray_angle"][np.argmax(sums[key])]), key.replace("wear_sum", "crankpin")
+    return words.paragraph("reads_wear", name=row_name(name, words.language), angle=words.angle(ray))
+
+
+_OF_MACHINES: Mapping[str, Callable[[Material], Paragraph | None]] = {
+    "joint_forces": partial(_of_largest, "joint_force", "reads_joint_forces"),
+    "chambers": partial(_of_largest, "gas_pressure", "reads_chambers"), "sliders": _of_output, "unbalanced": _of_rotor,
+    "hammer_blow": _of_hammer, "crankpin_wear": _of_wear, "balance_orders": _of_orders,
+    "crankpin_load": partial(_of_bearing, "crankpin", "reads_load"),
+    "big_end_polar": partial(_of_bearing, "big_end", "reads_load"),
+    "main_journal_polar": partial(_of_bearing, "main_journal", "reads_mains"),
+    "torsional_modes": lambda material: _of_torsion(material).get("torsional_modes"),
+    "torsional_response": lambda material: _of_torsion(material).get("torsional_response"),
+    "campbell": lambda material: _of_torsion(material).get("campbell"),
+}  # fmt: skip
