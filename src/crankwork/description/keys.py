@@ -680,7 +680,7 @@ _CYLINDER = TableSpec("cylinder", {
     "bore": KeySpec(Quantity(("length",), 1e-4, 100.0), required=True),
     "displacement": KeySpec(_VOLUME),
     "stroke_bore_ratio": KeySpec(Number(0.2, 5.0)),
-    "clearance_volume": KeySpec(_VOLUME, instead_of=("compression_ratio",)),
+    "clearance_volume": KeySpec(_VOLUME._replace(low=0.0), instead_of=("compression_ratio",)),
     "compression_ratio": KeySpec(Number(1.001, 100.0), instead_of=("clearance_volume",)),
     "offset": KeySpec(Quantity(("length",), -100.0, 100.0), default="0 mm"),
     "inclination": KeySpec(_ANGLE),

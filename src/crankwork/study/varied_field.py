@@ -39,10 +39,12 @@ class SearchPoints(NamedTuple):
     is_stated: bool  # From the stated number or its limits otherwise
 
 
-def search_points(field: NumericField, start: str | float | None, end: str | float | None, steps: int) -> SearchPoints:
-    """Return the points of a search, between the stated ends or around the stated number."""
+def search_points(
+    field: NumericField, start: str | float | None, end: str | float | None, steps: int, around: float = _AROUND
+) -> SearchPoints:
+    """Return the points of a search, between the stated ends or `around` the stated number, by this factor."""
     low, high = (stated_limit(field, text, option) for text, option in ((start, "--from"), (end, "--to")))
-    own = None if low is not None and high is not None else _own_range(field)
+    own = None if low is not None and high is not None else _own_range(field, around)
     if own is None and (low is None or high is None):
         missing = "--from" if low is None else "--to"
         raise CrankworkError(ErrorMessage("range_needed", option=missing, key=field.key))
@@ -100,7 +102,7 @@ def _parsed(text: str, unit: str, mistake: ErrorMessage) -> float:
         raise ValueError(error.args[0] if unit else mistake) from None
 
 
-def _own_range(field: NumericField) -> tuple[float, float] | None:
+def _own_range(field: NumericField, around: float) -> tuple[float, float] | None:
     """Return the limits of a number if they are close together, or a range around the stated number."""
     low, high, now = field.low, field.high, field.now
     if field.dimension == "angle" and low < 0:
@@ -111,8 +113,8 @@ def _own_range(field: NumericField) -> tuple[float, float] | None:
     if not now:
         return None
     if low >= 0:
-        return max(low, now / _AROUND), min(high, now * _AROUND)
-    return max(low, now - _AROUND * abs(now)), min(high, now + _AROUND * abs(now))
+        return max(low, now / around), min(high, now * around)
+    return max(low, now - around * abs(now)), min(high, now + around * abs(now))
 
 
 @dataclass(frozen=True)
