@@ -479,8 +479,10 @@ def deviation_in_si(quantity: ParsedQuantity, deviation: str) -> float:
     return size * UNITS[quantity.unit].factor if quantity.unit else size
 
 
-def parse_in(text: str, unit: str) -> float:
+def parse_in(text: str, unit: str, dimension: str = "") -> float:
     """Parse a quantity written by hand: a bare number is in `unit`, and a comma is a decimal mark. [SI]
+
+    `dimension`: what it measures, by default what the unit does.
 
     Examples
     --------
@@ -489,7 +491,7 @@ def parse_in(text: str, unit: str) -> float:
     """
     text = text.strip()
     text = f"{text} {unit}" if _BARE.fullmatch(text) else text
-    return parse(text, (UNITS[unit].dimension,), decimal_comma=True)[0]
+    return parse(text, (dimension or UNITS[unit].dimension,), decimal_comma=True)[0]
 
 
 def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given

@@ -67,7 +67,8 @@ def stated_limit(field: NumericField, written: str | float | None, option: str) 
         return None
     text = str(written).strip()
     try:
-        value = _parsed(text, field.unit, ErrorMessage("number_plain", value=shown(text), example="0.25"))
+        mistake = ErrorMessage("number_plain", value=shown(text), example="0.25")
+        value = _parsed(text, field.unit, mistake, field.dimension)
     except ValueError as error:
         raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=error.args[0])) from None
     if not math.isfinite(value) or not field.low <= value <= field.high:
@@ -94,10 +95,10 @@ def level_of(key: str, text: str) -> float:
     return value
 
 
-def _parsed(text: str, unit: str, mistake: ErrorMessage) -> float:
+def _parsed(text: str, unit: str, mistake: ErrorMessage, dimension: str = "") -> float:
     """Return a number in SI; ValueError with the mistake, which is told of a number without a unit."""
     try:
-        return units.parse_in(text, unit) if unit else float(text.replace(",", "."))
+        return units.parse_in(text, unit, dimension) if unit else float(text.replace(",", "."))
     except ValueError as error:
         raise ValueError(error.args[0] if unit else mistake) from None
 
