@@ -198,7 +198,7 @@ def solve(  # noqa: PLR0913 - equation, unknown and options of the search
         Key of the number, as in `--set`.
     limits : tuple of str or float
         Range of the search, with a unit, or in the unit of the file; by default from the limits of the field or around
-        the number of the file.
+        the number of the file, and farther from it where nothing is found.
     steps : int
         Number of steps of the range, even or of equal ratios.
     overrides : sequence of str
