@@ -50,7 +50,9 @@ def test_fractions_are_read(text: str, dimension: str, value: float) -> None:
 def test_what_is_suggested_for_a_dimension_is_accepted_and_the_first_spelling_of_each_size(dimension: str) -> None:
     assert parse(EXAMPLES[dimension], (dimension,))[1] == dimension
     sizes = [UNITS[name].factor for name in spellings(dimension)]
-    others = {unit.factor for unit in UNITS.values() if unit.dimension == dimension and not unit.zero}
+    # degrees of a rise are those of the scales
+    scale = "temperature" if dimension == "temperature_rise" else dimension
+    others = {unit.factor for unit in UNITS.values() if unit.dimension == scale and not unit.zero}
     assert len(set(sizes)) == len(sizes) == len(others)
 
 
@@ -61,7 +63,8 @@ DEFINED = {
     "area": {"2 см²": 2e-4, "2 in2": 2 * 6.4516e-4},
     "volume": {"1.5 л": 1.5e-3, "3 in3": 3 * 16.387064e-6, "1 ft3": 0.028316846592},
     "mass": {"2 lb": 0.90718474, "2 slug": 2 * 14.593902937206364, "3 oz": 3 * 0.028349523125, "1 ton(US)": 907.18474,
-             "1 ton(UK)": 1016.0469088, "1 blob": 175.12683524647636, "1 кгс·с²/м": 9.80665},
+             "1 ton(UK)": 1016.0469088, "1 blob": 175.12683524647636, "1 кгс·с²/м": 9.80665,
+             "1 lbf·s2/ft": 14.593902937206364},
     "mass_per_area": {"15.87 g/cm2": 158.7},
     "mass_per_length": {"60 кг/м": 60.0, "1 lb/in": 0.45359237 / 0.0254, "1 lb/ft": 0.45359237 / 0.3048},
     "inertia": {"0.2 кг·м²": 0.2, "5 lb*ft2": 5 * 0.45359237 * 0.09290304, "1 slug*ft2": 1.3558179483314004,
@@ -69,7 +72,8 @@ DEFINED = {
     "speed": {"60 об/мин": 2 * math.pi, "2300 vòng/phút": 2300 * math.pi / 30, "2300 vg/ph": 2300 * math.pi / 30,
               "60π rad/s": 60 * math.pi, "1 500 об/хв": 50 * math.pi},
     "angular_acceleration": {"2 рад/с²": 2.0},
-    "velocity": {"36 км/ч": 10.0, "3 м/с": 3.0, "10 ft/s": 3.048, "60 mph": 26.8224},
+    "velocity": {"36 км/ч": 10.0, "3 м/с": 3.0, "10 ft/s": 3.048, "60 mph": 26.8224, "60 m/min": 1.0,
+                 "60 in/min": 0.0254},
     "acceleration": {"3 мм/с2": 3e-3, "10 ft/s2": 3.048},
     "pressure": {"1 кгс/см2": 98066.5, "2 МН/м²": 2e6, "120 mm H2O": 1176.798, "1 м вод. ст.": 9806.65,
                  "750 mm Hg": 99991.79056125, "1 psi": 0.45359237 * 9.80665 / 0.0254**2, "1 Mpsi": 6894757293.168361,
@@ -77,19 +81,31 @@ DEFINED = {
                  "30 in Hg": 3386.388640341 * 30, "1 ft H2O": 2989.06692, "2 кгс/мм²": 19613300.0},
     "pressure_by_length": {"0.8 bar/cm": 8e6, "100 kN/m2/mm": 1e8, "10 bar/mm": 1e9},
     "force": {"1 000 N": 1000.0, "2 тс": 19613.3, "1 lbf": 0.45359237 * 9.80665, "2 кН": 2000.0},
-    "stiffness": {"1 lbf/ft": 14.593902937206364},
+    "stiffness": {"1 lbf/ft": 14.593902937206364, "1 kip/in": 175126.83524647636},
     "torque": {"1 кгс·м": 9.80665, "2 lbf*ft": 2.7116358966628, "1 ft-lb": 1.3558179483314004,
-               "1 in-lb": 0.1129848290276167, "5 N-m": 5.0, "7 N-mm": 7e-3, "1 kip-ft": 1355.8179483314004},
+               "1 in-lb": 0.1129848290276167, "5 N-m": 5.0, "7 N-mm": 7e-3, "1 kip-ft": 1355.8179483314004,
+               "2 tf*m": 19613.3},
     "energy": {"2 кДж": 2000.0, "1 Btu": 1055.05585262, "2 кгс·м": 19.6133, "3 N-m": 3.0,
                "1 in-lb": 0.1129848290276167, "1 lbf*ft": 1.3558179483314004, "2 kWh": 7.2e6},
     "specific_heat": {"53.35 ft-lbf/(lb-R)": 53.35 * 0.3048 * 9.80665 * 1.8, "0.24 Btu/lb-R": 1004.832,
-                      "287 J/kg K": 287.0, "29.27 kgf·m/(kg·K)": 29.27 * 9.80665},
-    "volume_rate": {"10 gpm(US)": 10 * 3.785411784e-3 / 60, "360 л/ч": 1e-4},
+                      "287 J/kg K": 287.0, "29.27 kgf·m/(kg·K)": 29.27 * 9.80665,
+                      "1.005 kJ/kg·°C": 1005.0, "0.24 Btu/(lbm·°F)": 1004.832,
+                      "53.35 lbf·ft/(lbm·°R)": 53.35 * 0.3048 * 9.80665 * 1.8},
+    "volume_rate": {"10 gpm(US)": 10 * 3.785411784e-3 / 60, "360 л/ч": 1e-4, "1 in3/s": 16.387064e-6},
     "energy_per_area": {"5 N-m/mm2": 5e6, "900 ft-lb/in2": 900 * 1.3558179483314004 / 6.4516e-4},
     "torque_per_length": {"5 N-m/mm": 5000.0, "1 lbf-ft/in": 1.3558179483314004 / 0.0254},
-    "power": {"10 л.с.": 7354.9875, "1 hp(I)": 745.6998715822702, "1 hp(M)": 735.49875},
-    "temperature": {"540 °R": 300.0, "212 degF": 373.15, "-40 °F": 233.15},
-    "density": {"0.284 lb/in3": 0.284 * 27679.904710203125},
+    "power": {"10 л.с.": 7354.9875, "1 hp(I)": 745.6998715822702, "1 hp(M)": 735.49875,
+              "33000 ft-lbf/min": 745.6998715822702, "6 kJ/min": 100.0, "2 кВт": 2000.0, "36 kJ/h": 10.0,
+              "3600 kcal/h": 4186.8, "60 Btu/min": 1055.05585262, "3600 Btu/h": 1055.05585262},
+    "fuel_consumption": {"0.36 kg/kWh": 1e-7, "1 lb/hp-h": 0.45359237 / 745.6998715822702 / 3600,
+                         "180 г/(л.с.·ч)": 0.05e-3 / 735.49875},
+    "time": {"2 h": 7200.0}, "damping": {"2 kgf-s/m": 19.6133}, "angular_damping": {"2 kgf·m·s/rad": 19.6133},
+    "torsional_stiffness": {"1 N-m/deg": 180 / math.pi},
+    "temperature": {"540 °R": 300.0, "212 degF": 373.15, "-40 °F": 233.15, "540 R": 300.0},
+    # of a rise no scale has a zero
+    "temperature_rise": {"12 K": 12.0, "12 °C": 12.0, "12 degC": 12.0, "18 °F": 10.0, "18 degF": 10.0, "18 R": 10.0},
+    "heat_transfer": {"300 W/(m2·°C)": 300.0},
+    "density": {"0.284 lb/in3": 0.284 * 27679.904710203125, "1 slug/ft3": 14.593902937206364 / 0.028316846592},
 }  # fmt: skip
 
 

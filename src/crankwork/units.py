@@ -53,7 +53,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "area_moment": [(1e-8, "cm4 см4"), (1e-12, "mm4 мм4"), (1.0, "m4 м4"), (_IN**4, "in4")],
     "mass": [
-        (1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (_LB, "lb lbm"), (_LB / 16, "oz"), (_SLUG, "slug"),
+        (1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (_LB, "lb lbm"), (_LB / 16, "oz"), (_SLUG, "slug lbf*s2/ft"),
         (2000 * _LB, "ton(US)"), (2240 * _LB, "ton(UK)"), (KGF, "kgf*s2/m kG*s2/m кгс·с2/м"),
         (_LBF / _IN, "blob blobs lbf*s2/in"),
     ],
@@ -80,7 +80,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "angular_jerk": [(1.0, "rad/s3 рад/с3")],
     "jerk": [(1.0, "m/s3 м/с3"), (1e-3, "mm/s3 мм/с3"), (_FT, "ft/s3"), (_IN, "in/s3")],
     "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (1 / 3.6, "km/h км/ч"), (_FT, "ft/s"),
-                 (_FT / 60, "ft/min fpm"), (_IN, "in/s"), (1e-2, "cm/s см/с"), (5280 * _FT / 3600, "mph mi/h")],
+                 (_FT / 60, "ft/min fpm"), (_IN, "in/s"), (1e-2, "cm/s см/с"), (5280 * _FT / 3600, "mph mi/h"),
+                 (1 / 60, "m/min м/мин"), (_IN / 60, "in/min")],
     "acceleration": [(1.0, "m/s2 м/с2"), (1e-3, "mm/s2 мм/с2"), (_FT, "ft/s2"), (_IN, "in/s2"),
                      (1e-2, "cm/s2 см/с2")],
     "pressure": [
@@ -95,17 +96,20 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (_LBF / _IN**2, "psi lbf/in2"), (_LBF / _FT**2, "psf lbf/ft2"),
         (1e3 * _LBF / _IN**2, "ksi"), (1e6 * _LBF / _IN**2, "Mpsi"),
     ],
-    "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
+    "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин"), (3600.0, "h ч")],
     "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м"), (_LBF / _IN, "lbf/in"), (_LBF / _FT, "lbf/ft"),
-                  (1e2, "N/cm Н/см"), (KGF * 1e2, "kgf/cm кгс/см"), (KGF * 1e3, "kgf/mm кгс/мм"), (KGF, "kgf/m кгс/м")],
+                  (1e2, "N/cm Н/см"), (KGF * 1e2, "kgf/cm кгс/см"), (KGF * 1e3, "kgf/mm кгс/мм"), (KGF, "kgf/m кгс/м"),
+                  (1e3 * _LBF / _IN, "kip/in")],
     "damping": [
         (1.0, "N*s/m Н·с/м"), (1e3, "kN*s/m N*s/mm кН·с/м"), (_LBF / _IN, "lbf*s/in"), (_LBF / _FT, "lbf*s/ft"),
+        (KGF, "kgf*s/m кгс·с/м"),
     ],
     "angular_damping": [(1.0, "N*m*s/rad N*m*s Н·м·с/рад Н·м·с"), (_LBF * _FT, "lbf*ft*s/rad lbf*ft*s"),
-                        (_LBF * _IN, "lbf*in*s/rad lbf*in*s")],
+                        (_LBF * _IN, "lbf*in*s/rad lbf*in*s"), (KGF, "kgf*m*s/rad kgf*m*s кгс·м·с/рад")],
     "torsional_stiffness": [
         (1.0, "N*m/rad Н·м/рад"), (1e3, "kN*m/rad кН·м/рад"), (1e6, "MN*m/rad МН·м/рад"), (KGF, "kgf*m/rad кгс·м/рад"),
         (_LBF * _FT, "lbf*ft/rad lb-ft/rad"), (_LBF * _IN, "lbf*in/rad lb-in/rad"),
+        (180 / math.pi, "N*m/deg N*m/° Н·м/град"),
     ],
     "force": [
         (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (10.0, "daN даН"), (KGF, "kgf кгс kG"), (1e3 * KGF, "tf тс"),
@@ -116,7 +120,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m kG*m кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
         (_LBF * _IN, "lbf*in lb-in"),
         (1e-3, "N*mm Nmm Н·мм"), (1e-2, "N*cm Ncm Н·см"), (KGF / 100, "kgf*cm кгс·см"), (1e3 * _LBF * _FT, "kip*ft"),
-        (1e3 * _LBF * _IN, "kip*in"),
+        (1e3 * _LBF * _IN, "kip*in"), (1e3 * KGF, "tf*m тс·м"),
     ],
     "energy": [
         (1.0, "J Дж"), (1e3, "kJ кДж"), (1e6, "MJ МДж"), (_LBF * _FT, "ft*lbf ft-lb"), (_LBF * _IN, "in*lbf in-lb"),
@@ -133,7 +137,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (math.pi / 180 * 1e3, "deg/mm °/mm град/мм °/мм"), (math.pi / 180 * 1e2, "deg/cm °/cm град/см"),
         (1.0, "rad/m рад/м"), (math.pi / 180 / _IN, "deg/in"),
     ],
-    "temperature": [(1.0, "K К"), (5 / 9, "degR °R")],
+    "temperature_rise": [(1.0, "K degC"), (5 / 9, "degR degF")],
+    "temperature": [(1.0, "K К"), (5 / 9, "degR °R R")],
     "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb"),
                         (4186.8, "kcal/kg ккал/кг")],
     "mass_moment": [
@@ -157,16 +162,18 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "specific_heat": [
         (1.0, "J/(kg*K) Дж/(кг*К) J/kg*K J/kgK"), (1e3, "kJ/(kg*K) кДж/(кг*К) kJ/kg*K kJ/kgK"),
         (4186.8, "kcal/(kg*K) Btu/(lb*R) Btu/lb*R ккал/(кг*К)"), (KGF, "kgf*m/(kg*K) кгс·м/(кг*К)"),
-        (_FT * KGF * 1.8, "ft*lbf/(lb*R) ft*lbf/lb*R"),
+        (_FT * KGF * 1.8, "ft*lbf/(lb*R) ft*lbf/lb*R lbf*ft/(lb*R)"),
     ],
-    "density": [(1.0, "kg/m3 кг/м3"), (1e3, "g/cm3 г/см3"), (_LB / _FT**3, "lb/ft3"), (_LB / _IN**3, "lb/in3")],
+    "density": [(1.0, "kg/m3 кг/м3"), (1e3, "g/cm3 г/см3"), (_LB / _FT**3, "lb/ft3"), (_LB / _IN**3, "lb/in3"),
+                (_SLUG / _FT**3, "slug/ft3")],
     "specific_amount": [(1.0, "kmol/kg кмоль/кг")],
     "molar_mass": [(1.0, "kg/kmol кг/кмоль")],
     "molar_energy": [(1.0, "kJ/kmol кДж/кмоль")],
     "molar_heat": [(1.0, "kJ/(kmol*K) кДж/(кмоль*К)")],
     "fuel_consumption": [
         (1 / 3.6e9, "g/(kW*h) g/kWh г/(кВт*ч)"), (1.0, "kg/J кг/Дж"),
-        (_LB / (550 * 3600 * _LBF * _FT), "lb/(hp*h) lb/hph"),
+        (_LB / (550 * 3600 * _LBF * _FT), "lb/(hp*h) lb/hph lb/hp*h"),
+        (1 / 3.6e6, "kg/(kW*h) kg/kWh кг/(кВт*ч)"), (1e-3 / (75 * KGF * 3600), "g/(PS*h) г/(л.с.*ч)"),
     ],
     "mass_rate": [
         (1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с"), (1 / 60, "kg/min кг/мин"), (_LB / 3600, "lb/h"),
@@ -174,7 +181,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "volume_rate": [
         (1 / 60, "m3/min м3/мин"), (1.0, "m3/s м3/с"), (1 / 3600, "m3/h м3/ч"), (1e-3, "l/s L/s л/с"),
-        (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min cfm"), (_FT**3, "ft3/s cfs"),
+        (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min cfm"), (_FT**3, "ft3/s cfs"), (_IN**3, "in3/s"),
         (1e-3 / 3600, "l/h L/h л/ч"), (231 * _IN**3 / 60, "gal(US)/min gpm(US)"),
         (4.54609e-3 / 60, "gal(UK)/min gpm(UK)"),
     ],
@@ -185,6 +192,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "power": [
         (1e3, "kW кВт"), (1.0, "W Вт"), (1e6, "MW МВт"), (75 * KGF, "PS л.с. лс mã_lực hp(M)"),
         (550 * _LBF * _FT, "hp(I) bhp"), (_LBF * _FT, "ft*lbf/s"), (KGF, "kgf*m/s кгс·м/с"),
+        (1e3 / 60, "kJ/min кДж/мин"), (1e3 / 3600, "kJ/h кДж/ч"), (4186.8 / 3600, "kcal/h ккал/ч"),
+        (1055.05585262 / 60, "Btu/min"), (1055.05585262 / 3600, "Btu/h"), (_LBF * _FT / 60, "ft*lbf/min"),
     ],
 }  # fmt: skip
 
@@ -200,12 +209,15 @@ UNITS: dict[str, Unit] = {
 
 # signs and words that textbooks print otherwise than the table
 _SIGNS = str.maketrans("²³¹⁻−⋅∙•×·", "231--*****", "^{}")
-_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min", "hertz": "Hz", "Hertz": "Hz", "герц": "Гц", "Герц": "Гц"}
+_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min", "lbm": "lb",
+          "hertz": "Hz", "Hertz": "Hz", "герц": "Гц", "Герц": "Гц"}  # fmt: skip
 
 
 def _plain(name: str) -> str:
     """Return a unit in plain signs: `N·m`, `N.m`, `кг⋅м^2`, `об./мин`, `мин⁻¹` and `m·s⁻²` are the same as others."""
     name = re.sub(r"\s*([/*])\s*", r"\1", name.translate(_SIGNS)).replace(" ", "*")
+    # per degree of a scale is per kelvin, or per degree of Rankine
+    name = re.sub(r"(?<=[/*])(?:deg|°)([CСFR])", lambda scale: "K" if scale[1] in "CС" else "R", name)
     name = re.sub(r"\.(?=[/*]|\Z)", "", name).replace(".", "*")
     name = re.sub(r"[^\W\d_]+", lambda word: _WORDS.get(word[0], word[0]), name)
     name = re.sub(r"(?:\A|\*)([^\W\d]+)-([123])(?=[*/]|\Z)", lambda part: f"/{part[1]}{part[2].replace('1', '')}", name)
@@ -364,12 +376,14 @@ def parse(
     _ask_which(spelling, dimensions, number, name or "")
     unit = UNITS.get(spelling)
     if unit is not None and _is_also(unit, spelling) in dimensions and unit.dimension not in dimensions:
+        # a rise has no zero
+        spelling = first_spelling(unit._replace(zero=0.0)) if unit.zero else spelling
         unit = unit._replace(dimension=_is_also(unit, spelling))
     weighed = _WEIGHTS.get(unit.dimension, "") if unit is not None and unit.dimension not in dimensions else ""
     fits = unit is not None and (unit.dimension in dimensions or weighed in dimensions)
     wanted = tuple(_dimension(dimension) for dimension in dimensions)
     known = ", ".join(spelling for dimension in dimensions for spelling in spellings(dimension))
-    known += ", °C" * ("temperature" in dimensions)
+    known += ", °C" * ("temperature" in dimensions[0])
     if "," in match["number"] and not decimal_comma:
         point = f"{number} {name if fits else example.split()[1]}"
         if fits or name is None:
@@ -395,9 +409,11 @@ def parse(
 
 
 def _is_also(unit: Unit, spelling: str) -> str:
-    """Return what else a force by a length measures, work or torque, empty for other units."""
+    """Return what else a unit measures, work or torque, or a rise of temperature; empty for most."""
     if unit.dimension == "energy" and re.search("[*-]lb", spelling):
         return "torque"
+    if unit.dimension == "temperature":
+        return "temperature_rise"
     return "energy" if unit.dimension == "torque" else ""
 
 
@@ -445,7 +461,7 @@ def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values:
         for unit in near
         if _is_slip(name, unit) and ("/" in unit or not re.fullmatch(rf"{re.escape(unit)}[^s]", name))
     ]
-    if "temperature" in dimensions and name.translate(TO_LATIN).upper() in {"C", "F"}:
+    if "temperature" in dimensions[0] and name.translate(TO_LATIN).upper() in {"C", "F"}:
         near = [f"°{name.translate(TO_LATIN).upper()}"]
     mixed = _other_alphabet(name)
     if mixed in all_spellings:
@@ -463,8 +479,10 @@ def deviation_in_si(quantity: ParsedQuantity, deviation: str) -> float:
     return size * UNITS[quantity.unit].factor if quantity.unit else size
 
 
-def parse_in(text: str, unit: str) -> float:
+def parse_in(text: str, unit: str, dimension: str = "") -> float:
     """Parse a quantity written by hand: a bare number is in `unit`, and a comma is a decimal mark. [SI]
+
+    `dimension`: what it measures, by default what the unit does.
 
     Examples
     --------
@@ -473,7 +491,7 @@ def parse_in(text: str, unit: str) -> float:
     """
     text = text.strip()
     text = f"{text} {unit}" if _BARE.fullmatch(text) else text
-    return parse(text, (UNITS[unit].dimension,), decimal_comma=True)[0]
+    return parse(text, (dimension or UNITS[unit].dimension,), decimal_comma=True)[0]
 
 
 def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from crankwork import Description, solve
 from crankwork.description.shorthand import expanded
 from crankwork.errors import CrankworkError
 from crankwork.note.explain import explanation
@@ -21,7 +22,8 @@ from machine_texts import analysed
 pytestmark = pytest.mark.elsewhere
 
 RPM = math.pi / 30
-LBF, INCH = 4.4482216152605, 0.0254
+LBF, INCH, FOOT, POUND = 4.4482216152605, 0.0254, 0.3048, 0.45359237
+PSI, SLUG = LBF / INCH**2, LBF / FOOT
 
 CELL = """
 format = 2
@@ -428,3 +430,237 @@ centre = ["5 in", "0 deg"]
     reduced = sum(m * place**2 + j * angle**2 for m, j, place, angle in zip(masses, inertias, *slopes, strict=True))
     torque = reduced[2] * -40 + (reduced[3] - reduced[1]) / (2 * step) / 2 * 25**2
     assert results.value("driving_torque", at=60) == pytest.approx(torque, rel=1e-5)
+
+
+HEAT_BALANCE = """
+crank = { stroke = "4.5 in", speed = "2000 rpm" }
+cylinder.bore = "3.75 in"
+[test]
+cylinders = 6
+brake_load = "95 lbf"
+brake_arm = "21 in"
+fuel_rate = "31 lb/h"
+fuel_heating_value = "18500 Btu/lb"
+coolant_rate = "60 lb/min"
+coolant_heat = "1 Btu/(lb*°F)"
+coolant_rise = "22 °F"
+"""
+
+
+@for_each("rise", ["22 °F", "22 degF", "22 R", "12.222222222222 °C", "12.222222222222 degC", "12.222222222222 K"])
+def test_a_rise_of_temperature_has_no_zero(rise: str) -> None:
+    """60 lb of water a minute, each warmed by 22 degrees: 1320 Btu a minute."""
+    results = analysed(HEAT_BALANCE.replace("22 °F", rise))
+    assert results["heat_to_coolant"] == pytest.approx(1320 * 1055.05585262 / 60, rel=1e-8)
+    assert results["heat_share.to_coolant"] == pytest.approx(1320 * 60 / (31 * 18500), rel=1e-8)
+
+
+def test_a_rise_that_is_sought_is_told_between_ends_in_any_degrees() -> None:
+    description = Description(HEAT_BALANCE)
+    limits = ("5 °C", "36 °F")
+    (root,) = solve(description, "heat_share.to_coolant = 0.1", "test.coolant_rise", limits=limits).roots
+    assert root.at == pytest.approx(0.1 * 31 * 18500 / 3600 * 5 / 9, rel=1e-6)
+
+
+def test_two_stages_in_british_units() -> None:
+    """Work of polytropes, sizes by what clearance leaves, and the water that takes the heat of the cooler."""
+    results = analysed("""
+units = "imperial"
+crank.speed = "200 rpm"
+[stages]
+count = 2
+suction = "14.5 psi"
+between = "48 psi"
+discharge = "150 psi"
+exponent = [1.3, 1.25]
+temperature = "70 °F"
+temperatures = ["90 °F"]
+clearance = [0.05, 0.06]
+free_flow = "500 ft3/min"
+free_pressure = "14.7 psi"
+free_temperature = "60 °F"
+stroke_bore_ratio = 0.9
+sides = 2
+gas_constant = "53.34 ft-lbf/(lbm-°R)"
+heat_capacity = "0.24 Btu/(lb*°F)"
+water_heat_capacity = "1 Btu/(lb*°F)"
+water_rise = "15 °F"
+""")
+    gas, zero = 53.34, 459.67
+    mass = 14.7 * 144 * 500 / (gas * (60 + zero))  # pounds a minute
+    works = [
+        exponent / (exponent - 1) * gas * (cold + zero) * (ratio ** (1 - 1 / exponent) - 1)
+        for exponent, cold, ratio in ((1.3, 70, 48 / 14.5), (1.25, 90, 150 / 48))
+    ]
+    assert results["stage_power"] == pytest.approx(mass * sum(works) * FOOT * LBF / 60, rel=1e-9)
+    swept = [
+        mass * gas * (cold + zero) / (144 * pressure) / (1 + share - share * ratio ** (1 / exponent)) / 400
+        for cold, pressure, share, ratio, exponent in (
+            (70, 14.5, 0.05, 48 / 14.5, 1.3),
+            (90, 48, 0.06, 150 / 48, 1.25),
+        )
+    ]
+    bore = (swept[0] / (math.pi / 4 * 0.9)) ** (1 / 3)
+    assert results["bore.1"] == pytest.approx(bore * FOOT, rel=1e-9)
+    assert results["bore.2"] == pytest.approx(math.sqrt(swept[1] / (math.pi / 4 * 0.9 * bore)) * FOOT, rel=1e-9)
+    cooled = (70 + zero) * (48 / 14.5) ** (0.3 / 1.3) - (90 + zero)
+    assert results["water_flow"] == pytest.approx(mass * 0.24 * cooled / 15 * POUND / 60, rel=1e-9)
+
+
+PRESS = """
+crank.largest_speed = "250 rpm"
+load.period = "2 s"
+[[load.strokes]]
+shear_strength = "50 ksi"
+hole_diameter = "1 in"
+thickness = "5/8 in"
+penetration = "1/2"
+from = "0 s"
+over = "0.4 s"
+[flywheel]
+radius_of_gyration = "18 in"
+"""
+
+
+@for_each("wanted", ["percent = 5", 'fluctuation = "1/10"'])
+def test_a_press_begins_at_its_largest_speed(wanted: str) -> None:
+    """Half of 50 ksi times the sheared area times the thickness; four fifths come from the flywheel."""
+    results = analysed(PRESS + wanted)
+    work = 0.5 * 50e3 * PSI * math.pi * INCH * (0.625 * INCH) ** 2
+    mean = 250 * RPM / 1.05
+    assert results["crank_speed_max"] == pytest.approx(250 * RPM, rel=1e-9)
+    assert results["crank_speed_min"] == pytest.approx(mean * 0.95, rel=1e-9)
+    assert results["flywheel_mass"] == pytest.approx(0.8 * work / (0.1 * mean**2) / (18 * INCH) ** 2, rel=1e-9)
+    assert "crank.largest_speed" in explanation(results, "speed")
+
+
+def test_the_speeds_of_a_press_before_and_after_its_stroke() -> None:
+    results = analysed(PRESS.replace('crank.largest_speed = "250 rpm"', "") + 'speeds = ["250 rpm", "225 rpm"]')
+    lost = 0.8 * 0.5 * 50e3 * PSI * math.pi * INCH * (0.625 * INCH) ** 2
+    inertia = 2 * lost / ((250 * RPM) ** 2 - (225 * RPM) ** 2)
+    assert results["flywheel_inertia"] == pytest.approx(inertia, rel=1e-9)
+
+
+@for_each(("wanted", "told"), [
+    ('speeds = ["250 rpm", "225 rpm"]', r"largest_speed: is the first of flywheel\.speeds already"),
+    ("", r"says nothing without the flywheel; .* percent or fluctuation"),
+])  # fmt: skip
+def test_a_largest_speed_is_stated_once_and_has_a_flywheel(wanted: str, told: str) -> None:
+    with pytest.raises(CrankworkError, match=told):
+        analysed(PRESS + wanted)
+
+
+@for_each("mechanism", ['rod.length = "10 in"', FORCED.partition("crank")[0]])
+def test_one_load_of_a_mechanism_is_a_list_too(mechanism: str) -> None:
+    with pytest.raises(CrankworkError, match=r"load: unknown table; did you mean \[\[loads\]\]") as told:
+        analysed(f'{mechanism}\ncrank = {{ radius = "3 in" }}\n[load]\nkind = "force"\npoint = "B"\nforce = "1 lbf"')
+    assert "crank.radius" not in str(told.value)
+
+
+@for_each("clearance", ["", 'cylinder.clearance_volume = "0 in3"'])
+def test_a_compressor_without_clearance(clearance: str) -> None:
+    """All of the stroke is drawn in; the piston and its 3 slug turn the crank by the rate of its way."""
+    results = analysed(f"""
+crank = {{ stroke = "10 in", speed = "150 rpm" }}
+rod.length = "25 in"
+piston.mass = "3 slug"
+cylinder.bore = "12 in"
+{clearance}
+[gas]
+pressures = "absolute"
+cycle = "360 deg"
+ambient = "14.7 psi"
+[gas.valves]
+suction = "14.7 psi"
+discharge = "60 psi"
+compression_exponent = 1.35
+expansion_exponent = 1.2
+""")
+    area, low, high, speed = math.pi * (6 * INCH) ** 2, 14.7 * PSI, 60 * PSI, 150 * RPM
+    work = 1.35 / 0.35 * low * area * 10 * INCH * ((high / low) ** (0.35 / 1.35) - 1)
+    assert results["indicated_power"] == pytest.approx(-work * 2.5, rel=1e-9)
+    angles, step = math.radians(250) + np.array([-1, 0, 1]) * 1e-4, 1e-4
+    way = (30 - 5 * np.cos(angles) - np.sqrt(25**2 - (5 * np.sin(angles)) ** 2)) * INCH
+    rate, bend = (way[2] - way[0]) / (2 * step), (way[2] - 2 * way[1] + way[0]) / step**2
+    pressure = low * (10 * INCH / way[1]) ** 1.35 - low
+    torque = -(pressure * area - 3 * SLUG * bend * speed**2) * rate
+    assert results.value("driving_torque", at=250) == pytest.approx(torque, rel=1e-6)
+
+
+def test_the_speed_of_a_crank_by_that_of_a_rocker_far_from_what_the_file_states() -> None:
+    """Lengths of 2, 8, 7 and 7 in; angular velocities have the ratio of the distances of the instant centre."""
+    description = Description("""
+fixed_points = { O = ["0 in", "0 in"], E = ["7 in", "0 in"] }
+crank = { pivot = "O", pin = "A", radius = "2 in", speed = "10 rpm" }
+links.left = { joins = ["A", "C"], length = "8 in" }
+links.right = { joins = ["E", "C"], length = "7 in" }
+""")
+    (root,) = solve(description, "link_angular_velocity.right@60deg = 3 rad/s", "crank.speed", steps=50).roots
+    pin = 2 * np.exp(1j * math.pi / 3)
+    line = 7 - pin
+    along = (8**2 - 7**2 + abs(line) ** 2) / (2 * abs(line))
+    joint = pin + line / abs(line) * (along + 1j * math.sqrt(8**2 - along**2))
+    centre = pin.real - pin.imag * (joint - pin).real / (joint - pin).imag
+    assert root.at == pytest.approx(3 * (centre - 7) / centre, rel=1e-9)
+
+
+def test_a_double_acting_pump_with_a_vessel() -> None:
+    """A rod of 325 ft makes cosines; the vessel takes what both sides give above their mean."""
+    valves = 'pressures = "absolute"\nambient = "14.7 psi"\ncompression_ratio = 20\nbore = "8 in"\n'
+    valves += 'slider = "piston"\nvalves = { density = "1.94 slug/ft3", suction = "10 psi", discharge = "60 psi" }\n'
+    results = analysed(f"""
+fixed_points.O = ["0 in", "0 in"]
+crank = {{ pivot = "O", pin = "A", radius = "6 in", speed = "45 rpm", start = "180 deg" }}
+links.rod = {{ joins = ["A", "B"], length = "325 ft" }}
+guides.bed = {{ through = "O" }}
+sliders.piston = {{ guide = "bed", pin = "B" }}
+branch.B = -1
+[vessels.out]
+chambers = ["head", "crank"]
+side = "discharge"
+length = "300 ft"
+diameter = "4 in"
+friction = 0.02
+[chambers.head]
+{valves}sense = 1
+[chambers.crank]
+{valves}sense = -1
+rod_diameter = "2 in"
+""")
+    head, crank, speed = math.pi * (4 * INCH) ** 2, math.pi * 15 * INCH**2, 45 * RPM
+    mean = (head + crank) * 12 * INCH * 45 / 60
+    assert results["mean_flow.out"] == pytest.approx(mean, rel=1e-9)
+    assert results["mean_torque"] == pytest.approx((head + crank) * 12 * INCH * 50 * PSI / (2 * math.pi), rel=1e-9)
+    angles = np.linspace(0, 2 * math.pi, 200001)
+    flow = np.where(np.sin(angles) > 0, head, crank) * 6 * INCH * speed * abs(np.sin(angles)) - mean
+    stored = np.cumsum(flow[1:] + flow[:-1]) / 2 * angles[1] / speed
+    assert results["vessel_volume_change.out"] == pytest.approx(np.ptp(stored), rel=1e-5)
+    lost = 0.02 * 900 * (mean / (math.pi * (2 * INCH) ** 2)) ** 2 / 2
+    assert results["even_pipe_power.out"] == pytest.approx(1.94 * SLUG / FOOT**3 * mean * lost, rel=1e-9)
+
+
+def test_a_coupler_with_friction_in_both_its_pins() -> None:
+    """Its force touches both circles of friction; the sides of the circles follow from how the links turn."""
+    results = analysed("""
+fixed_points = { O = ["0 in", "0 in"], E = ["30 in", "0 in"] }
+crank = { pivot = "O", pin = "A", radius = "6 in" }
+links.coupler = { joins = ["A", "B"], length = "26 in" }
+links.rocker = { joins = ["E", "B"], length = "14 in" }
+friction.circle = "sine"
+friction.pins.A = { coefficient = 0.15, radius = "1 in" }
+friction.pins.B = { coefficient = 0.15, radius = "1 in" }
+loads = [{ kind = "torque", link = "rocker", torque = "-2000 lbf*in" }]
+""")
+    angles = math.pi / 3 + np.array([-1, 0, 1]) * 1e-6
+    pins = 6 * np.exp(1j * angles)
+    line = 30 - pins
+    along = (26**2 - 14**2 + abs(line) ** 2) / (2 * abs(line))
+    joints = pins + line / abs(line) * (along + 1j * np.sqrt(26**2 - along**2))
+    coupler, rocker = (np.diff(np.angle(link)).sum() / 2e-6 for link in (joints - pins, joints - 30))
+    pin, joint, radius = pins[1], joints[1], math.sin(math.atan(0.15))
+    at_pin, at_joint = -np.sign(coupler - 1) * radius, -np.sign(coupler - rocker) * radius
+    # moments of friction on the coupler, of a force of one at its end; the force is turned by what they need
+    push = (joint - pin) / 26 * np.exp(-1j * math.asin((at_pin + at_joint) / 26))
+    size = 2000 / -(((joint - 30).conjugate() * push).imag + at_joint)
+    torque = -((pin.conjugate() * push).imag - at_pin) * size
+    assert results.value("torque_with_friction", at=60) == pytest.approx(torque * LBF * INCH, rel=1e-8)

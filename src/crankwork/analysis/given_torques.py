@@ -96,6 +96,8 @@ def _speed(machine: Machine) -> TracedValue:
     path = "crank.largest_speed"
     if path in machine.stated:
         largest = traced_inputs.speed_at(machine, machine.method, path, machine.stated[path].value, ".largest")
+        if not machine.drive.inertia and (wanted := target_fluctuation(machine, largest)) is not None:
+            return (largest / (1 + wanted / 2)).named("speed")
         mean = machine.speed * machine.method.pi / math.pi
         return TracedValue(ProcedureValue(mean, "of_largest", (largest,)), "speed")
     high, low = extreme_speeds(machine)

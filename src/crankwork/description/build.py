@@ -119,7 +119,10 @@ def _cylinder(sizes: Values, lengths: tuple[float, float, float] | None, reader:
     for name, travel in travels.items():
         if lengths is not None and abs(travel) > 2 * lengths[0]:
             reader.add_error(f"cylinder.travels.{name}", ErrorMessage("travel_beyond", stroke=2e3 * lengths[0]))
-    return sizes.made(Cylinder, piston_rod_diameter=sizes.si("piston_rod_diameter") or 0.0, travels=travels)
+    return sizes.made(
+        Cylinder, clearance_volume=sizes.si("clearance_volume") or None,
+        piston_rod_diameter=sizes.si("piston_rod_diameter") or 0.0, travels=travels,
+    )  # fmt: skip
 
 
 def test_values(values: Values) -> dict[str, tuple[float, ...]]:

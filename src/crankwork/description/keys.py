@@ -426,7 +426,7 @@ _EVENT = Quantity(("angle",), 0.0, 0.75 * math.pi)
 _BEFORE = Quantity(("angle",), math.radians(0.1), math.pi / 2)
 _CYCLE_PRESSURE = Quantity(("pressure",), 100.0, 1e9)
 _TEMPERATURE = Quantity(("temperature",), 100.0, 5000.0)
-_RISE = Quantity(("temperature",), -100.0, 1000.0)
+_RISE = Quantity(("temperature_rise",), -100.0, 1000.0)
 _SHARE = Number(0.0, 1.0)
 
 _OF_MASS = {"mass": ()}
@@ -680,7 +680,7 @@ _CYLINDER = TableSpec("cylinder", {
     "bore": KeySpec(Quantity(("length",), 1e-4, 100.0), required=True),
     "displacement": KeySpec(_VOLUME),
     "stroke_bore_ratio": KeySpec(Number(0.2, 5.0)),
-    "clearance_volume": KeySpec(_VOLUME, instead_of=("compression_ratio",)),
+    "clearance_volume": KeySpec(_VOLUME._replace(low=0.0), instead_of=("compression_ratio",)),
     "compression_ratio": KeySpec(Number(1.001, 100.0), instead_of=("clearance_volume",)),
     "offset": KeySpec(Quantity(("length",), -100.0, 100.0), default="0 mm"),
     "inclination": KeySpec(_ANGLE),
@@ -819,7 +819,7 @@ _GAS = TableSpec("gas", {
     "motored": KeySpec(NameOr(TableSpec("gas", DIAGRAM))),
 })  # fmt: skip
 
-_WARMER = Quantity(("temperature",), 0.0, 2000.0, above=True)
+_WARMER = Quantity(("temperature_rise",), 0.0, 2000.0, above=True)
 # what a test bed measured, by the quantities that it states
 _TESTED: dict[Any, tuple[str, ...]] = {
     Quantity(("force",), 0.0, 1e9): ("brake_load", "brake_spring_load"),

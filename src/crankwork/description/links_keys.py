@@ -222,7 +222,7 @@ _OF_STAGES = {
     "heat_capacity": KeySpec(Quantity(("specific_heat",), 1.0, 1e6), only=_OF_HEAT),
     "free_pressure": KeySpec(_ABSOLUTE, only={"temperature": (), "free_temperature": ()}, example='"0.1 MPa"'),
     "free_temperature": KeySpec(_TEMPERATURE.kind, only={"temperature": (), "free_pressure": ()}),
-    "water_rise": KeySpec(Quantity(("temperature",), 0.0, 1e3, above=True), instead_of=("water_flow",),
+    "water_rise": KeySpec(Quantity(("temperature_rise",), 0.0, 1e3, above=True), instead_of=("water_flow",),
                       only={"heat_capacity": ()}),
     "water_flow": KeySpec(Quantity(("mass_rate",), 0.0, 1e6, above=True), instead_of=("water_rise",),
                       only={"heat_capacity": ()}),

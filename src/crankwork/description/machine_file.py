@@ -201,7 +201,8 @@ def _without_strangers(values: dict[str, Any], keys: TableSpec, reader: Reader) 
         kinds = [kind for kind in FILES if name in kind.keys]
         excluding = min(([item for item in values if item not in kind.keys] for kind in kinds), key=len, default=[])
         if excluding := [item for item in excluding if item in keys.keys]:
-            reader.add_error(name, ErrorMessage("table_apart", others=[f"[{item}]" for item in excluding]))
+            meant = ErrorMessage("unknown_table_near", nearest="[[loads]]") if name == "load" else None
+            reader.add_error(name, meant or ErrorMessage("table_apart", others=[f"[{item}]" for item in excluding]))
             del kept[name]
             for absent in keys.keys.keys() - values.keys():
                 reader.suspect(absent)
@@ -367,7 +368,7 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     for name, excluded, keys in _WITHOUT_MECHANISM:
         if name in values and values.keys().isdisjoint(excluded):
             return keys
-    if "torque" in values or "load" in values:
+    if "torque" in values or ("load" in values and values.keys().isdisjoint((*_OF_LINKAGES, "rod"))):
         return TURNING_FILE if "torque" in values else PRESS_FILE
     crank = values.get("crank")
     has_no_speed = isinstance(crank, dict) and "speed" not in crank and ("transient" in values or _is_massless(values))

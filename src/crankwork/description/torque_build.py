@@ -95,10 +95,15 @@ def _slowed(machine: Machine, turning: ShaftTorques, values: Values, reader: Rea
 
     Angles stated by time and torques stated by power change with the speed.
     """
-    if not machine.drive.inertia:
-        reader.add_error("crank.largest_speed", ErrorMessage("largest_speed_alone"))
+    drive, largest, counted = machine.drive, machine.speed, machine.method.pi / math.pi
+    if "flywheel.speeds[1]" in machine.stated or not (drive.inertia or drive.fluctuation):
+        name = "largest_speed_alone" if drive.fluctuation is None else "largest_speed_twice"
+        reader.add_error("crank.largest_speed", ErrorMessage(name))
         return None
-    largest, counted = machine.speed, machine.method.pi / math.pi
+    if drive.fluctuation and not drive.inertia:
+        speed = largest / (1 + drive.fluctuation / 2)
+        turning = _turning(values, _Shaft(speed, machine.method, reader)) or turning
+        return replace(machine, speed=speed, turning=turning)
     for _ in range(_TRIES):
         excess = excess_work_of(machine, turning, given("speed", machine.speed * counted))
         square = largest**2 - 2 * excess / machine.drive.inertia / counted**2

@@ -32,6 +32,8 @@ _SAME = 1e-12
 _EXAMPLE = "piston_force@33deg = 0"
 STEPS = 400
 _MIN_STEPS, _MAX_STEPS = 10, 100_000
+# by which factor a number may be off where nothing is found near it
+_FAR_AROUND = 1000.0
 # errors of a value that other machines in the range may have
 _LOCAL_ERRORS = ("result_absent", "result_absent_near", "angle_unreached")
 _DIGITS = 12
@@ -196,7 +198,7 @@ def solve(  # noqa: PLR0913 - equation, unknown and options of the search
         Key of the number, as in `--set`.
     limits : tuple of str or float
         Range of the search, with a unit, or in the unit of the file; by default from the limits of the field or around
-        the number of the file.
+        the number of the file, and farther from it where nothing is found.
     steps : int
         Number of steps of the range, even or of equal ratios.
     overrides : sequence of str
@@ -244,6 +246,10 @@ def solve(  # noqa: PLR0913 - equation, unknown and options of the search
             raise CrankworkError(ErrorMessage("value_absent", key=target.key)) from None
 
     result = find_roots(above, where.values, abs(target.level), told)
+    if not (where.is_stated or result.roots or result.jumps or result.zero):
+        wider = search_points(number, *limits, steps, _FAR_AROUND)
+        if (second := find_roots(above, wider.values, abs(target.level), told)).roots:
+            where, result = wider, second
     shown = results.machine
     return Solution(shown.title, target, number, where, result, is_time=bool(results.period), units=shown.units)
 

@@ -427,7 +427,8 @@ def units_of(numbers: Mapping[str, NumericField], keys: Sequence[str]) -> dict[s
 
 def _in_si(number: NumericField, values: Sequence[float | str]) -> list[float]:
     try:
-        return [parse_in(value, number.unit) if isinstance(value, str) else float(value) for value in values]
+        unit = number.unit, number.dimension
+        return [parse_in(value, *unit) if isinstance(value, str) else float(value) for value in values]
     except ValueError as error:
         raise CrankworkError(
             ErrorMessage("option_wrong", option=f"--for {number.key}", mistake=error.args[0])

@@ -39,10 +39,12 @@ class SearchPoints(NamedTuple):
     is_stated: bool  # From the stated number or its limits otherwise
 
 
-def search_points(field: NumericField, start: str | float | None, end: str | float | None, steps: int) -> SearchPoints:
-    """Return the points of a search, between the stated ends or around the stated number."""
+def search_points(
+    field: NumericField, start: str | float | None, end: str | float | None, steps: int, around: float = _AROUND
+) -> SearchPoints:
+    """Return the points of a search, between the stated ends or `around` the stated number, by this factor."""
     low, high = (stated_limit(field, text, option) for text, option in ((start, "--from"), (end, "--to")))
-    own = None if low is not None and high is not None else _own_range(field)
+    own = None if low is not None and high is not None else _own_range(field, around)
     if own is None and (low is None or high is None):
         missing = "--from" if low is None else "--to"
         raise CrankworkError(ErrorMessage("range_needed", option=missing, key=field.key))
@@ -65,7 +67,8 @@ def stated_limit(field: NumericField, written: str | float | None, option: str) 
         return None
     text = str(written).strip()
     try:
-        value = _parsed(text, field.unit, ErrorMessage("number_plain", value=shown(text), example="0.25"))
+        mistake = ErrorMessage("number_plain", value=shown(text), example="0.25")
+        value = _parsed(text, field.unit, mistake, field.dimension)
     except ValueError as error:
         raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=error.args[0])) from None
     if not math.isfinite(value) or not field.low <= value <= field.high:
@@ -92,15 +95,15 @@ def level_of(key: str, text: str) -> float:
     return value
 
 
-def _parsed(text: str, unit: str, mistake: ErrorMessage) -> float:
+def _parsed(text: str, unit: str, mistake: ErrorMessage, dimension: str = "") -> float:
     """Return a number in SI; ValueError with the mistake, which is told of a number without a unit."""
     try:
-        return units.parse_in(text, unit) if unit else float(text.replace(",", "."))
+        return units.parse_in(text, unit, dimension) if unit else float(text.replace(",", "."))
     except ValueError as error:
         raise ValueError(error.args[0] if unit else mistake) from None
 
 
-def _own_range(field: NumericField) -> tuple[float, float] | None:
+def _own_range(field: NumericField, around: float) -> tuple[float, float] | None:
     """Return the limits of a number if they are close together, or a range around the stated number."""
     low, high, now = field.low, field.high, field.now
     if field.dimension == "angle" and low < 0:
@@ -111,8 +114,8 @@ def _own_range(field: NumericField) -> tuple[float, float] | None:
     if not now:
         return None
     if low >= 0:
-        return max(low, now / _AROUND), min(high, now * _AROUND)
-    return max(low, now - _AROUND * abs(now)), min(high, now + _AROUND * abs(now))
+        return max(low, now / around), min(high, now * around)
+    return max(low, now - around * abs(now)), min(high, now + around * abs(now))
 
 
 @dataclass(frozen=True)
