@@ -490,7 +490,9 @@ def cards(results: Results, explained: Container[str], language: Language, live:
         name, unit = label(display_key(key, results), language), unit_name(key_unit(key), language)
         value = float(f"{displayed(key, results.summary[key]):.4g}")
         shown = _shown_value(key, number(value, language), explained, live)
-        parts.append(f"<div><dt>{html.escape(capital(name))}</dt><dd>{shown} {html.escape(unit)}</dd></div>")
+        parts.append(
+            f"<div{_value_marks(live, key)[0]}><dt>{html.escape(capital(name))}</dt><dd>{shown} {html.escape(unit)}</dd></div>"
+        )
     return [*parts, "</dl>"]
 
 
