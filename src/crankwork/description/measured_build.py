@@ -400,9 +400,9 @@ def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 def check_parts(values: Values, path: str, reader: Reader) -> None:
     """Report points without laws, and laws without points."""
-    others = ("strokes", "measured", "valves", "pressure")
-    for key in ("points", "pieces") if values.keys().isdisjoint(others) else ():
-        if key not in values and not reader.has_errors(*(f"{path}.{name}" for name in (key, *others))):
+    pressure_keys = ("strokes", "measured", "valves", "pressure")
+    for key in ("points", "pieces") if values.keys().isdisjoint(pressure_keys) else ():
+        if key not in values and not reader.has_errors(*(f"{path}.{name}" for name in (key, *pressure_keys))):
             reader.add_error(f"{path}.{key}", ErrorMessage(f"gas_{key}", path=path))
 
 

@@ -542,8 +542,9 @@ def _advice(name: str, entry: KeySpec, prefix: str) -> str:
     """Return an example of a missing key; `prefix`: of the keys of its table."""
     if entry.example:
         return f"{name} = {entry.example}"
-    match entry.kind:
-        case (Quantity() as kind) | ListOf(Quantity() as kind, may_be_one=True):
+    wanted = entry.kind.entry if isinstance(entry.kind, ListOf) and entry.kind.may_be_one else entry.kind
+    match wanted:
+        case Quantity() as kind:
             return f'{name} = "{units.EXAMPLES[kind.dimensions[0]]}"'
         case Number() as kind:
             return f"{name} = {kind.example()}"

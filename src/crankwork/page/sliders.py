@@ -181,8 +181,13 @@ class LivePage:
         """Return the key of the quantity of a field if a formula uses it as it is, otherwise an empty text."""
         for known in in_order(self.traces[0].values()):
             node = known.node
-            if isinstance(node, Input) and node.path == slider.key and base_key(known.key) in QUANTITIES:
-                value = to_si(node.value, node.unit) if node.unit else node.value
+            if (
+                isinstance(node, Input)
+                and node.value is not None
+                and node.path == slider.key
+                and base_key(known.key) in QUANTITIES
+            ):
+                value = float(to_si(node.value, node.unit)) if node.unit else node.value
                 # coordinates follow from a distance and a direction
                 return known.key if math.isclose(value, slider.now, rel_tol=1e-9) else ""
         return ""
