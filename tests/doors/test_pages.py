@@ -165,6 +165,7 @@ def test_the_mistakes_that_the_guide_shows_are_told_so(crankwork, machine_file) 
 def test_the_files_of_the_guide_are_read(crankwork, tmp_path, machine_file) -> None:
     """Those that are a part of a file, in a file."""
     engines, notes = _blocks("docs/guide/engines.md", "toml"), _blocks("docs/guide/notes.md", "toml")
+    linkages = _blocks("docs/guide/linkages.md", "toml")
     (measured,) = _blocks("docs/guide/measured-pressure.md", "toml")
     example = (ROOT / "examples" / "spark-engine.toml").read_text("utf-8")
     shown = re.findall(r"^[a-z_]+ = .*?(?=  |$)|^\[.*?\](?=  |$)", engines[0], re.MULTILINE)
@@ -179,6 +180,8 @@ def test_the_files_of_the_guide_are_read(crankwork, tmp_path, machine_file) -> N
     for text in (
         engine + engines[1],
         engine + engines[3],
+        *("format = 2\n" + text for text in (engines[4], *linkages)),
+        *(f"{engine}{text}" for text in engines[5:]),
         template("engine") + notes[0],
         engine + '[gas]\ncycle = "720 deg"\n' + measured,
     ):

@@ -351,6 +351,43 @@ def test_a_pump_with_pipes_does_the_work_of_their_friction(written: str, tmp_pat
     assert "piston_force" not in results.complete.columns
 
 
+def test_a_pump_of_three_throws_does_three_times_the_work() -> None:
+    throws = '[engine]\nlayout = "inline"\ncylinders = 3\nfiring_order = "1-2-3"\n[gas]'
+    results = analysed(PUMP.replace("[gas]", throws))
+    assert results["mean_torque"] == pytest.approx(3 * analysed(PUMP)["mean_torque"], rel=1e-12)
+
+
+GEAR = """
+crank = { radius = "50 mm", speed = "600 rpm" }
+rod.ratio = 0.25
+cylinder.bore = "100 mm"
+"""
+INSTANT = LADDER.replace("1.5 m", "4 m")
+HEAD = PUMP.replace('discharge_height = "20 m"', 'discharge_height = "-20 m"')
+PUSHED = FORCED + '[[loads]]\nkind = "force"\npoint = "Q"\n'
+
+
+@for_each(("text", "told"), [
+    (f'{GEAR}gas.pressure = "2"', 'gas.pressure: "2" has no unit; write it like "2 MPa"'),
+    (f'{GEAR}gas.strokes = "table.csv"\ngas.cycle = "360 deg"',
+     "gas.strokes: must be a table; put its keys below a line [gas.strokes]"),
+    (f'{GEAR}gas = {{ pressure = "-1 bar", pressures = "absolute" }}',
+     'gas.pressure: is below vacuum; write it above zero, or pressures = "gauge"'),
+    (f"{PUSHED}force = 120\nangle = \"220 deg\"",
+     'loads[1].force: 120 has no unit; write it as text with a unit, for example "120 N"'),
+    (f'{PUSHED}x = "1 N"\ny = "1 N"\nangle = "9 deg"',
+     'loads[1].angle: says nothing without force; add force = "30 N", or leave it out'),
+    (INSTANT, ("driver.velocity: ladder, head cannot be assembled, or are in a dead position, with the driver at "
+               "4000 mm, which its law passes; keep the law within what the links reach, or change a length")),
+    (HEAD, ("gas.valves.discharge_height: does not lie above the pressure of the suction; write the larger one as "
+            "discharge, the smaller one as suction")),
+])  # fmt: skip
+def test_one_mistake_is_told_once_with_its_fix(text: str, told: str) -> None:
+    with pytest.raises(CrankworkError) as refused:
+        analysed(text)
+    assert [line.split(": ", 1)[1] for line in str(refused.value).splitlines()] == [told]
+
+
 def test_a_point_of_the_coupler_by_its_distance_and_direction() -> None:
     """7.5 in at 30 degrees from the line of the joints; the pivot of the rocker by distance and direction too."""
     results = analysed("""

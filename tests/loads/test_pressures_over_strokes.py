@@ -207,6 +207,7 @@ MISTAKES = {
     ('largest = "4.2 MPa"', ""): 'gas.strokes.largest: is missing; write largest = "4 MPa"',
     ('largest = "4.2 MPa"', 'largest = "4 MPa"\nunit = "bar"'): "gas.strokes.unit: says the same as largest",
     ('cycle = "720 deg"', 'cycle = "720 deg"\npressures = "absolute"'): "gas.strokes.intake[4]: is below vacuum",
+    ("4.2 MPa", "-4.2 MPa"): 'gas.strokes.largest: "-4.2 MPa" is out of range; write more than "0 MPa"',
     ("[gas.strokes]", "[gas.points]\na.stroke = 0\n[gas.strokes]"): "gas.strokes: says the same as points",
 }
 

@@ -33,6 +33,11 @@ MACHINES = {
         ("crank.radius", "crank.speed=1000..6000rpm"),
     ),
     "crank": ("four-bar", ("crank.radius",)),
+    # of which nothing is tabulated
+    "clutch": (
+        (EXAMPLES.parent / "tests/machines/clutch-plates.toml").read_text("utf-8"),
+        ("clutch.driving.speed=800..1200rpm",),
+    ),
     "punch": ((EXAMPLES / "punching-machine.toml").read_text("utf-8"), ("crank.speed",)),
 }
 AXE = Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"

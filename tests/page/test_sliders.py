@@ -339,3 +339,37 @@ def test_an_extreme_is_explained_where_it_is_now(slid):
         assert f"({angle:.2f}°) = {printed(page, key)}" in line
         compared += abs(angle - stated) > 1
     assert compared
+
+
+BAR = """
+fixed_points = { O2 = ["0 in", "0 in"], O4 = ["10 in", "-20 deg"] }
+crank = { pivot = "O2", pin = "A", radius = "4 in", speed = "60 rpm" }
+links.coupler = { joins = ["A", "B"], length = "9 in", mass = "2 kg", centre = ["4 in", "10 deg"] }
+links.rocker = { joins = ["B", "O4"], length = "6 in" }
+branch.B = 1
+"""
+
+
+def test_a_field_has_the_name_of_what_it_is_itself():
+    """A distance and a direction give two coordinates, and are neither of them."""
+    description = crankwork.Description(BAR)
+    options = ("crank.radius=3.9..4.1in", "fixed_points.O4[1]=9.5..10.5in", "links.coupler.centre[2]=0..20deg")
+    page = written(*_of(description, options)).decode()
+    names = re.findall(r'<label for="move\d" title="([^"]+)">([^<]+)<', page)
+    assert names == [("crank.radius", "Crank radius"), *((key.split("=")[0],) * 2 for key in options[1:])]
+    # what does not follow its centre is pale, among the main results too
+    assert re.search(r'<div class="filed"><dt>[^<]+</dt><dd><button data-key=driving_torque_max>', page)
+
+
+def _of(description, options):
+    results = crankwork.analyse(description.machine())
+    return results, "en", None, moved(description, options, (), results)
+
+
+def test_a_clutch_follows_though_nothing_is_tabulated(slid):
+    """The heat goes with the square of the speed; what fails in the page is told by its fixture."""
+    page = slid("clutch")
+    move(page, 0, 1100)
+    # what is not seen follows when it is printed
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert printed(page, "slip_heat") == number(results("clutch", [1100])["slip_heat"], "en")

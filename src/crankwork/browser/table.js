@@ -41,7 +41,9 @@ export function showTables(room, tables, columns, cursor, explain, filed) {
   }
 
   function show() {
-    const keys = tables[Number(choice.value)].k;
+    const chosen = tables[Number(choice.value)];
+    if (!chosen) return;
+    const keys = chosen.k;
     const heads = keys.map((key) => {
       const { symbol, name, unit } = columns[key];
       return `<th scope="col"><button type="button" title="${name}">${symbol}${unit ? `, ${unit}` : ""}</button></th>`;
@@ -51,7 +53,7 @@ export function showTables(room, tables, columns, cursor, explain, filed) {
       return `<tr>${cells.join("")}</tr>`;
     });
     table.innerHTML = `<thead><tr>${heads.join("")}</tr></thead><tbody>${rows.join("")}</tbody>`;
-    table.ariaLabel = tables[Number(choice.value)].n;
+    table.ariaLabel = chosen.n;
     mark();
     reach(table.tBodies[0]?.rows[cursor.row]?.cells[0]);
   }
@@ -78,7 +80,7 @@ export function showTables(room, tables, columns, cursor, explain, filed) {
     if (cell.matches("td")) cursor.snap(cursor.rows[row.sectionRowIndex]);
     explain(tables[Number(choice.value)].k[cell.cellIndex]);
   });
-  if (tables.length) show();
+  show();
   cursor.follow(mark);
   return show;
 }

@@ -794,7 +794,7 @@ _PRESSURES = ListOf(Number(-1e9, 1e9), fewest=2, most=500)
 _STROKES = TableSpec("stroke_table", {
     "shares": KeySpec(ListOf(Number(0.0, 1.0), fewest=2, most=500), required=True),
     **{name: KeySpec(_PRESSURES) for names in STROKES.values() for name in names},
-    "largest": KeySpec(_PRESSURE, instead_of=("unit",)),
+    "largest": KeySpec(Quantity(("pressure",), 0.0, 1e10, above=True), instead_of=("unit",)),
     "unit": KeySpec(UnitOf("pressure"), instead_of=("largest",)),
     "law": KeySpec(Choice(("straight", "rounded")), default="straight"),
 })  # fmt: skip

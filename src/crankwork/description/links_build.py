@@ -155,7 +155,7 @@ def build_linkage(values: Values, reader: Reader) -> Machine | None:
     )
     check_friction(machine, reader)
     _check_method(machine, reader)
-    moving = checked_motion(machine, crank, reader)
+    moving = checked_motion(machine, values, reader)
     return moving if moving is not None and _fits(moving, values, reader) else None
 
 

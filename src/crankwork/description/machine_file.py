@@ -284,7 +284,7 @@ def _engine_form(stated: Machine, engine: Machine, machine: Machine) -> Machine 
 def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine | None:
     """Return an engine with loads or friction as the linkage that it is; report mistakes at the keys of its file."""
     # other files do not load it
-    from crankwork.description.shorthand import has_own_sizes, key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
+    from crankwork.description.shorthand import has_other_forces, key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
 
     if not machine.method.is_exact:
         stated = next((key for key in (*LOADING, "engine") if key in values), "gas.valves")
@@ -298,9 +298,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader) -> Machine
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
     notices += machine.engine.notices if machine.engine is not None else ()
-    has_liquid = machine.gas is not None and machine.gas.valves is not None and machine.gas.valves.density is not None
-    if "loads" in values or has_own_sizes(values) or has_liquid:
-        # the forces of the engine alone would be other ones
+    if has_other_forces(values):
         notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance", "torsion") if name in values]
         return replace(linkage, stated=machine.stated, notices=tuple(notices))
     linkage = replace(linkage, stated=machine.stated, notices=tuple(notices))

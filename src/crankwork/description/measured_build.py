@@ -400,8 +400,9 @@ def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 def check_parts(values: Values, path: str, reader: Reader) -> None:
     """Report points without laws, and laws without points."""
-    for key in ("points", "pieces") if {"strokes", "measured", "valves", "pressure"}.isdisjoint(values) else ():
-        if key not in values and not reader.has_errors(f"{path}.{key}", f"{path}.measured", f"{path}.valves"):
+    pressure_keys = ("strokes", "measured", "valves", "pressure")
+    for key in ("points", "pieces") if values.keys().isdisjoint(pressure_keys) else ():
+        if key not in values and not reader.has_errors(*(f"{path}.{name}" for name in (key, *pressure_keys))):
             reader.add_error(f"{path}.{key}", ErrorMessage(f"gas_{key}", path=path))
 
 
@@ -420,7 +421,8 @@ def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
     if valves.suction <= 0:
         reader.add_error(f"{path}.suction_height", ErrorMessage("suction_high"))
     if not valves.discharge > valves.suction:
-        reader.add_error(f"{path}.discharge", ErrorMessage("valves_turned"))
+        key = "discharge_height" if "discharge_height" in stated else "discharge"
+        reader.add_error(f"{path}.{key}", ErrorMessage("valves_turned"))
     elif valves.temperature and valves.discharge_temperature:
         most = valves.temperature * valves.discharge / valves.suction
         if not valves.temperature <= valves.discharge_temperature < most:
@@ -496,10 +498,11 @@ def build_diagram(values: Values, path: str, reader: Reader, cycle: str | None =
         measured = replace(measured, treatment=treatment, notices=(*measured.notices, *notices))
     resample = source.si("resample")
     if absolute:
-        for name, point in values["points"].items():
-            pressure = None if point is None else point.si("pressure")
-            if pressure is not None and pressure < 0:
-                reader.add_error(f"{path}.points.{name}.pressure", ErrorMessage("point_vacuum"))
+        stated = {f"{path}.points.{name}": point for name, point in values["points"].items()}
+        for place, table in {**stated, path: values}.items():
+            pressure = table and table.get("pressure")
+            if pressure is not None and pressure.value < 0:
+                reader.add_error(f"{place}.pressure", ErrorMessage("point_vacuum"))
     points, pieces = dict[str, DiagramPoint](), tuple[Piece, ...]()
     if "strokes" in values and cycle is not None:
         points, pieces = _over_strokes(values["strokes"], f"{path}.strokes", cycle, reader, absolute=absolute)

@@ -103,16 +103,17 @@ def _is_on_link_of(linkage: Linkage, member: Member, joints: list[str]) -> bool:
     return len(own) == 2 and any(owners & {*linkage.owners[point]} for point in own)
 
 
-def checked_motion(machine: Machine, crank: Values, reader: Reader) -> Machine | None:
+def checked_motion(machine: Machine, values: Values, reader: Reader) -> Machine | None:
     """Report a linkage that can be assembled nowhere, and a transient that cannot start."""
     try:
         reached = find_reachable_motion(machine, _STEP)
     except GeometryError as error:
         is_by_law = machine.mechanism.driver.law is not None
-        key = "driver.law" if is_by_law else _unassembled_key(machine, CrankGrid.steps(_STEP, 360.0))
+        stated = "velocity" if "velocity" in values["driver"] else "law"
+        key = f"driver.{stated}" if is_by_law else _unassembled_key(machine, CrankGrid.steps(_STEP, 360.0))
         reader.add_error(key, error.args[0])
         return None
-    machine = replace(machine, working_range=_working_range(crank, reached.travel, reader))
+    machine = replace(machine, working_range=_working_range(values["crank"], reached.travel, reader))
     try:
         applied_loads(machine.mechanism, reached.motion, machine.loads)
     except GeometryError as error:

@@ -51,7 +51,8 @@ class ListOf(NamedTuple):
 
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
         """Return the entries; an invalid entry becomes None after its complaint."""
-        if self.may_be_one and isinstance(value, str) and not reader.has_errors(key):
+        single = (str, int, float) if isinstance(self.entry, Quantity) else str
+        if self.may_be_one and isinstance(value, single) and not reader.has_errors(key):
             return [self.entry.read(value, key, reader)]
         if (
             isinstance(value, str)
@@ -541,7 +542,8 @@ def _advice(name: str, entry: KeySpec, prefix: str) -> str:
     """Return an example of a missing key; `prefix`: of the keys of its table."""
     if entry.example:
         return f"{name} = {entry.example}"
-    match entry.kind:
+    wanted = entry.kind.entry if isinstance(entry.kind, ListOf) and entry.kind.may_be_one else entry.kind
+    match wanted:
         case Quantity() as kind:
             return f'{name} = "{units.EXAMPLES[kind.dimensions[0]]}"'
         case Number() as kind:
@@ -556,8 +558,8 @@ def _advice(name: str, entry: KeySpec, prefix: str) -> str:
             return ErrorMessage("tables_of_names", key=f"{prefix}{name}")
         case ListOf(Text()):
             return f'{name} = ["A", "B"]'
-        case ListOf(Quantity() as entry):
-            return f'{name} = ["{units.EXAMPLES[entry.dimensions[0]]}", ...]'
+        case ListOf(Quantity() as kind):
+            return f'{name} = ["{units.EXAMPLES[kind.dimensions[0]]}", ...]'
         case _:
             return f"{name} = [...]"
 

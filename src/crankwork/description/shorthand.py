@@ -139,8 +139,7 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     for mechanism in gears:
         yield from _chambers(values, mechanism)
     yield from loading.items()
-    if "loads" not in loading and not has_own_sizes(values):
-        # with these it is no engine whose bearings are known
+    if not has_other_forces(values):
         yield from _of_shaft(values, machine, gears)
     is_exact = machine.method.is_exact
     if "flywheel" in values:
@@ -307,9 +306,10 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
         yield f"chambers.crank_end{gear.own}", {**face, "rod_diameter": rod, "sense": -1, "pressure": back}
 
 
-def has_own_sizes(values: Mapping[str, Any]) -> bool:
-    """Return whether cylinders have sizes of their own."""
-    return not OWN_SIZES.keys().isdisjoint(values.get("engine", ()))
+def has_other_forces(values: Mapping[str, Any]) -> bool:
+    """Return whether forces are other ones than those of the engine alone: of loads, own sizes or a liquid."""
+    has_liquid = not OF_LIQUID.isdisjoint(values.get("gas", {}).get("valves", ()))
+    return "loads" in values or has_liquid or not OWN_SIZES.keys().isdisjoint(values.get("engine", ()))
 
 
 def _own(values: Mapping[str, Any], name: str, gear: CrankMechanism) -> str | None:

@@ -487,10 +487,10 @@ def cards(results: Results, explained: Container[str], language: Language, live:
     keys = list(dict.fromkeys([*main_keys(results), *further]))[:_CARDS]
     parts = [f'<dl class="cards" aria-label="{words("results", language)}">']
     for key in keys:
-        name, unit = label(display_key(key, results), language), unit_name(key_unit(key), language)
+        name, unit = capital(label(display_key(key, results), language)), unit_name(key_unit(key), language)
         value = float(f"{displayed(key, results.summary[key]):.4g}")
-        shown = _shown_value(key, number(value, language), explained, live)
-        parts.append(f"<div><dt>{html.escape(capital(name))}</dt><dd>{shown} {html.escape(unit)}</dd></div>")
+        shown, marks = _shown_value(key, number(value, language), explained, live), _value_marks(live, key)[0]
+        parts.append(f"<div{marks}><dt>{html.escape(name)}</dt><dd>{shown} {html.escape(unit)}</dd></div>")
     return [*parts, "</dl>"]
 
 

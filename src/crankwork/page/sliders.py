@@ -178,10 +178,18 @@ class LivePage:
         return [key for key in keys if reductions[key] <= self._converged]
 
     def name(self, slider: Slider) -> str:
-        """Return the key of the quantity of a field if a formula uses it, otherwise an empty text."""
+        """Return the key of the quantity of a field if a formula uses it as it is, otherwise an empty text."""
         for known in in_order(self.traces[0].values()):
-            if isinstance(known.node, Input) and known.node.path == slider.key and base_key(known.key) in QUANTITIES:
-                return known.key
+            node = known.node
+            if (
+                isinstance(node, Input)
+                and node.value is not None
+                and node.path == slider.key
+                and base_key(known.key) in QUANTITIES
+            ):
+                value = float(to_si(node.value, node.unit)) if node.unit else node.value
+                # coordinates follow from a distance and a direction
+                return known.key if math.isclose(value, slider.now, rel_tol=1e-9) else ""
         return ""
 
     def differs(self, key: str) -> bool:
