@@ -84,9 +84,9 @@ def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
         values["mean"] = words.amount(mean, "N*m", digits=4)
         values["ratio"] = words.number(max(abs(value) for value, _ in known.values()) / abs(mean), digits=2)
     if kind == "brix":
-        way = material.results.columns_at(np.array([90.0]), ("piston_displacement",))["piston_displacement"][0]
-        values |= {"angle": words.angle(0.5 * math.pi), "value": words.amount(way, key_unit("stroke"), digits=4),
-                   "share": words.number(100.0 * way / known["stroke"][0], digits=4)}  # fmt: skip
+        moved = material.results.columns_at(np.array([90.0]), ("piston_displacement",))["piston_displacement"][0]
+        values |= {"angle": words.angle(0.5 * math.pi), "value": words.amount(moved, key_unit("stroke"), digits=4),
+                   "share": words.number(100.0 * moved / known["stroke"][0], digits=4)}  # fmt: skip
     if kind == "excess_work" and "excess_work.mertsalov" in material.summary:
         values[kind] = words.amount(material.summary["excess_work.mertsalov"], "J", digits=4)
     return words.paragraph(f"reads_{kind}", **values)
