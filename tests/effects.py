@@ -170,7 +170,10 @@ def _values_of(results: Results) -> dict[str, np.ndarray]:
     """Return all values, without the places of extremes of what stays the same."""
     flat = {key for key, value in results.columns.items() if np.ptp(value) <= _FLAT * np.max(np.abs(value))}
     places = {key: _EXTREME.sub("", key) for key in results.summary if _EXTREME.search(key)}
-    values = {**results.columns, **{f"1/{key}": results[key] for key in results.summary if places.get(key) not in flat}}
+    values = {
+        **results.columns,
+        **{f"1/{key}": value for key, value in results.summary.items() if places.get(key) not in flat},
+    }
     for name, table in results.listings.items():
         values |= {f"{name}/{key}": column for key, column in table.columns.items()}
         for key in (key for key in table.columns if _EXTREME.search(key)):

@@ -501,7 +501,7 @@ def build_diagram(values: Values, path: str, reader: Reader, cycle: str | None =
         stated = {f"{path}.points.{name}": point for name, point in values["points"].items()}
         for place, table in {**stated, path: values}.items():
             pressure = table and table.get("pressure")
-            if pressure is not None and pressure.value < 0:
+            if isinstance(pressure, MeasuredValue) and pressure.value < 0:
                 reader.add_error(f"{place}.pressure", ErrorMessage("point_vacuum"))
     points, pieces = dict[str, DiagramPoint](), tuple[Piece, ...]()
     if "strokes" in values and cycle is not None:

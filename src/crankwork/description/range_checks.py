@@ -108,9 +108,10 @@ def checked_motion(machine: Machine, values: Values, reader: Reader) -> Machine 
     try:
         reached = find_reachable_motion(machine, _STEP)
     except GeometryError as error:
-        is_by_law = machine.mechanism.driver.law is not None
-        stated = "velocity" if "velocity" in values["driver"] else "law"
-        key = f"driver.{stated}" if is_by_law else _unassembled_key(machine, CrankGrid.steps(_STEP, 360.0))
+        if machine.mechanism.driver.law is not None:
+            key = "driver.velocity" if "velocity" in values["driver"] else "driver.law"
+        else:
+            key = _unassembled_key(machine, CrankGrid.steps(_STEP, 360.0))
         reader.add_error(key, error.args[0])
         return None
     machine = replace(machine, working_range=_working_range(values["crank"], reached.travel, reader))
