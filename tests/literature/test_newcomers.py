@@ -701,3 +701,16 @@ loads = [{ kind = "torque", link = "rocker", torque = "-2000 lbf*in" }]
     size = 2000 / -(((joint - 30).conjugate() * push).imag + at_joint)
     torque = -((pin.conjugate() * push).imag - at_pin) * size
     assert results.value("torque_with_friction", at=60) == pytest.approx(torque * LBF * INCH, rel=1e-8)
+
+
+@for_each("offset", [30.0, -30.0])
+def test_an_offset_makes_one_stroke_slower(offset: float) -> None:
+    """Directions of the crank at both ends of the stroke: towards the pin of the piston, and away from it."""
+    results = analysed(f"""
+crank = {{ radius = "50 mm", speed = "60 rpm" }}
+rod.length = "120 mm"
+cylinder.offset = "{offset} mm"
+""")
+    out, back = (math.atan2(30.0, math.sqrt(reach**2 - 30.0**2)) for reach in (170.0, 70.0))
+    slower = math.pi + back - out
+    assert results["time_ratio"] == pytest.approx(slower / (2 * math.pi - slower), rel=1e-12)
