@@ -297,3 +297,17 @@ def test_a_force_in_a_joint_says_on_which_link_it_acts():
 def test_the_least_of_a_column_is_called_so():
     words = [label("reduced_inertia.min", language) for language in ("en", "ru")]
     assert words == ["smallest reduced moment of inertia", "приведённый момент инерции: наименьшее значение"]
+
+
+def test_a_pressure_of_a_point_stands_on_the_line_of_the_point(tmp_path):
+    """Whatever the point is called: a pressure that does not change has none."""
+    file = tmp_path / "level.toml"
+    gear = 'crank.radius = "60 mm"\ncrank.speed = "720 rpm"\nrod.length = "240 mm"\ncylinder.bore = "150 mm"\n'
+    points = 'gas.cycle = "360 deg"\ngas.points.o = { angle = "0 deg", pressure = "0.3 MPa" }\n'
+    pieces = """gas.points."o'".angle = "360 deg"\ngas.pieces = [{ law = "constant", points = ["o", "o'"] }]\n"""
+    for gas, place in (
+        (points + pieces, "gas.points.o.pressure, line 6"),
+        ('gas.pressure = "0.3 MPa"', "gas.pressure"),
+    ):
+        file.write_text(gear + gas, encoding="utf-8")
+        assert any("300000 Pa = 0.3 MPa" in line and place in line for line in explained(file, "gas_force --at 30"))

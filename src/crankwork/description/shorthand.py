@@ -323,7 +323,7 @@ def _stated(table: Mapping[str, Any], gas: Gas, number: int) -> dict[str, Any]:
     counted = {key: table[key] for key in _COUNTED if key in table}
     diagram: Any = functools.reduce(lambda inner, name: inner[name], gas.path.split(".")[1:], table)
     if isinstance(diagram, str) or "pressure" in diagram:
-        return counted | {"pressure": _unit(gas.points["o"].pressure or 0.0, "Pa")}
+        return counted | {"pressure": _unit(gas.points[""].pressure or 0.0, "Pa")}
     if gas.measured is not None:
         counted["pressures"] = "absolute" if gas.is_absolute else "gauge"
         samples = {key: value for key, value in diagram["measured"].items() if key != "columns"}

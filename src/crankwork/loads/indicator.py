@@ -78,13 +78,9 @@ class Piece:
     reference: str | None = None
 
 
-# the law of a pressure that does not change
-CONSTANT = (Piece("constant", ("o", "o'")),)
-
-
 def constant_diagram(pressure: float, cycle: float) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
-    """Return points and law of a pressure [Pa] that does not change over a cycle [deg]."""
-    return {"o": DiagramPoint(0.0, pressure), "o'": DiagramPoint(cycle, pressure)}, CONSTANT
+    """Return points without names and the law of a pressure [Pa] that does not change over a cycle [deg]."""
+    return {"": DiagramPoint(0.0, pressure), "'": DiagramPoint(cycle, pressure)}, (Piece("constant", ("", "'")),)
 
 
 class DeadCentres(NamedTuple):

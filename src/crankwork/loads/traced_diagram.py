@@ -29,7 +29,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads.curves import CurvePoint, cubic_between, curve_between, line_between, monotone_slopes
 from crankwork.loads.gas import gauge_pressure, polytropic_pressure
-from crankwork.loads.indicator import CONSTANT, DiagramPoint, IndicatorDiagram, Piece, Segment
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment
 from crankwork.loads.valves import StatedValves
 
 # A stated volume within this tolerance is the computed volume.
@@ -121,6 +121,11 @@ def _stated(name: str) -> str:
     return name.rstrip("′")
 
 
+def _place_of_pressure(path: str, name: str) -> str:
+    """Return where the pressure of a point of a diagram stands; one that does not change has no point."""
+    return f"{path}.points.{name}.pressure" if name else f"{path}.pressure"
+
+
 def _law(
     diagram: IndicatorDiagram,
     segment: Segment,
@@ -132,9 +137,7 @@ def _law(
     match segment.law:
         case "constant":
             name, pressure = segment.origin, float(segment.pressures[0])
-            is_alone = (name, len(diagram.segments)) == (CONSTANT[0].points[0], 1)
-            place = f"{path}.pressure" if is_alone else f"{path}.points.{_stated(name)}.pressure"
-            plain = given(_of("diagram_pressure", owner, name), pressure, place)
+            plain = given(_of("diagram_pressure", owner, name), pressure, _place_of_pressure(path, _stated(name)))
             return segment.operands[0] if segment.operands else plain
         case "polytropic":
             p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path, owner)
@@ -341,8 +344,8 @@ class _DiagramTracer:
 
     def _pressure(self, name: str) -> TracedValue:
         if name not in self._pressures:
-            point, place = self._source.points[name], "" if self._source.pieces == CONSTANT else f".points.{name}"
-            stated = given("diagram_pressure", point.pressure or 0.0, f"{self._source.path}{place}.pressure")
+            point, place = self._source.points[name], _place_of_pressure(self._source.path, name)
+            stated = given("diagram_pressure", point.pressure or 0.0, place)
             self._pressures[name] = point.inputs[1] if point.inputs else stated
         return self._pressures[name]
 

@@ -295,6 +295,12 @@ def stage_indicator(machine: Drawn) -> Drawing:
     return _indicators(machine, curves, "stage_indicator")
 
 
+def _moments(across: Array, up: Array) -> tuple[float, ...]:
+    """Return area and first moments of a closed curve in a square of one: curves of one size differ in them."""
+    x, y = ((values - values.min()) / (np.ptp(values) or 1.0) for values in (across, up))
+    return tuple(abs(float(np.trapezoid(part, x))) for part in (y, x * y, y * y))
+
+
 def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array | None]], title: str) -> Drawing:
     """Return closed curves of pressure over volume by name, with the angles of their points. [SI]"""
     style, volume, pressure = machine.style, quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
@@ -304,7 +310,7 @@ def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array |
     }
     equal = dict[tuple[float, ...], list[str]]()
     for name, (across, up, _) in drawn.items():
-        sizes = (across.min(), across.max(), up.min(), up.max(), abs(np.trapezoid(up, across)))
+        sizes = (across.min(), across.max(), up.min(), up.max(), *_moments(across, up))
         equal.setdefault(tuple(round(float(size), 6) + 0.0 for size in sizes), []).append(name)
     rows = [Row(", ".join(names), STYLES[k % 4]) for k, names in enumerate(equal.values())] if len(drawn) > 1 else []
     paper, box = sheet(259.0, rows)
