@@ -38,7 +38,7 @@ def test_a_still_stands_at_the_angle_that_is_asked_for(crankwork):
 
 
 def test_a_linkage_stands_whole_turns_later_as_before(crankwork):
-    stills = [_drawn(crankwork, "knuckle-press", f"{at}.svg", "--at", at) for at in ("30", "390", "-330")]
+    stills = [_drawn(crankwork, "press-geometry", f"{at}.svg", "--at", at) for at in ("30", "390", "-330")]
     assert stills == stills[:1] * 3
 
 

@@ -143,8 +143,7 @@ def test_an_engine_with_a_spring_goes_through_every_command(crankwork) -> None:
     assert data["summary"]["static_torque_max"]["value"] > 0
     assert max(data["checks"].values()) < 1e-10
     assert "static_torque [N*m]" in _rows("dynamics")[0]
-    for language in ("en", "ru", "vi"):
-        assert crankwork("report", "gear.toml", "-o", f"note-{language}.html", "--lang", language).code == 0
+    assert crankwork("report", "gear.toml", "-o", "note.html", "--lang", "vi").code == 0
     assert crankwork("page", "gear.toml", "-o", "page.html", "--slider", "piston.mass").code == 0
     assert crankwork("draw", "gear.toml", "-o", "gear.svg").code == 0
     refused = crankwork("run", "gear.toml", "--method", "textbook")

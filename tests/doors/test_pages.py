@@ -57,7 +57,7 @@ def _set_up(folder: Path) -> None:
     (folder / "designs.toml").write_text(study, encoding="utf-8")
 
 
-@pytest.mark.parametrize("language", LANDING)
+@pytest.mark.parametrize("language", ["en", *(pytest.param(one, marks=pytest.mark.slow) for one in ("ru", "vi"))])
 def test_the_file_of_a_landing_page_gives_what_stands_below_it(crankwork, tmp_path, language) -> None:
     page = LANDING[language]
     (file,), (answer, told) = _blocks(page, "toml"), _blocks(page, "")

@@ -21,7 +21,6 @@ from each import failing, for_each
 EXAMPLES = Path(__file__).parents[2] / "examples"
 # where a cluster listens, and the studio; what listens in tests has places of its own
 SCHEDULER, PORT = "tcp://127.0.0.1:8786", "8765"
-LONGER = ("draw", "optimise", "report")
 
 
 @pytest.fixture(autouse=True)
@@ -69,14 +68,9 @@ def test_every_option_stands_in_an_example():
     assert shown == stated
 
 
-@for_each("command", sorted(set(cli.commands.commands) - {"sweep", *LONGER}))
-def test_examples_of_commands_end_well(command, carried_out):
-    assert failing({line: line for line in lines_of(command)}, carried_out) == {}
-
-
 @pytest.mark.slow
-@for_each("command", LONGER)
-def test_examples_of_commands_that_take_longer_end_well(command, carried_out):
+@for_each("command", sorted(set(cli.commands.commands) - {"sweep"}))
+def test_examples_of_commands_end_well(command, carried_out):
     assert failing({line: line for line in lines_of(command)}, carried_out) == {}
 
 

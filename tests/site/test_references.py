@@ -85,6 +85,7 @@ def _read(path):
     return load_study(path, is_search="[search]" in text) if "[vary]" in text else crankwork.read(path)
 
 
+@pytest.mark.slow
 def test_files_that_examples_are_from_are_read(files):
     """Those that stand for their keys alone are analysed below, templates and expansions elsewhere."""
     names = {name for _, name in key_pages.examples().values()} - set(dict(key_pages.changed()))
@@ -92,6 +93,7 @@ def test_files_that_examples_are_from_are_read(files):
     assert failing(paths, _read) == {}
 
 
+@pytest.mark.slow
 def test_files_of_keys_alone_are_analysed_and_hold_together(files):
     here = {path.name for path in key_pages.KEY_EXAMPLES.glob("*.toml")} - {"changes.toml"}
     names = [*dict(key_pages.changed()), *(f"{key_pages.KEY_EXAMPLES.name}/{name}" for name in here)]
@@ -140,6 +142,7 @@ def test_every_public_name_has_an_entry_with_a_sentence():
     assert api_pages.left_out() == []
 
 
+@pytest.mark.slow
 def test_examples_of_names_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     failed = []

@@ -177,7 +177,7 @@ def test_what_a_machine_has_not_is_refused_in_words():
             "press", ("damper", "point", "slider", "process", "friction", "motor", "transient"), marks=pytest.mark.slow
         ),
         ("slider-crank", ("flywheel", "gas", "engine", "bearings", "balance")),
-        ("compressor", ("motor", "transient", "spring", "friction")),
+        pytest.param("compressor", ("motor", "transient", "spring", "friction"), marks=pytest.mark.slow),
     ],
 )
 def test_whatever_is_added_makes_a_machine_that_is_computed(name, kinds):

@@ -220,7 +220,11 @@ def _straightest(
     `where`: cycle and dead centre of firing; `late`: how far from there the peak is.
     """
     shifts = np.arange(math.ceil(PEAKS[0] - late), math.floor(PEAKS[1] - late) + 1.0)
-    lines = [_compression(samples, volume_at, where, shift) for shift in shifts.tolist()]
+    windows = [_compressed(samples, where, shift) for shift in shifts.tolist()]
+    # the volumes of all of them at once
+    ends = np.cumsum([len(x) for x, _ in windows])[:-1]
+    volumes = np.split(volume_at(np.mod(np.concatenate([x for x, _ in windows]), where[0])), ends)
+    lines = [_line(volume, y) if _is_long(y) else None for volume, (_, y) in zip(volumes, windows, strict=True)]
     candidates = []
     for shift, line, after in zip(shifts.tolist(), lines, lines[1:], strict=False):
         if line is None or after is None or line.bend * after.bend > 0:
@@ -245,21 +249,27 @@ def _compression(
     samples: tuple[Array, Array], volume_at: VolumeAt, where: tuple[float, float], shift: float, off: float = 0.0
 ) -> _Compression | None:
     """Return the line of compression of pressures after a shift [deg] and with an offset [Pa]; None if too short."""
-    cycle, centre = where
-    x, y = _between(samples, cycle, *(centre - before - round(shift) for before in _COMPRESSION))
-    if len(x) < _FEWEST_POINTS or float(y.min()) + off <= 0:
-        return None
-    return _line((x + shift, y + off), volume_at, cycle)
+    x, y = _compressed(samples, where, shift)
+    return _line(volume_at(np.mod(x, where[0])), y + off) if _is_long(y + off) else None
 
 
-def _line(samples: tuple[Array, Array], volume_at: VolumeAt, cycle: float) -> _Compression:
-    """Return the line of compression or expansion through samples at true angles. [deg], [Pa]"""
-    x, y = samples
-    along = np.log(volume_at(np.mod(x, cycle)))
+def _compressed(samples: tuple[Array, Array], where: tuple[float, float], shift: float) -> tuple[Array, Array]:
+    """Return the samples that a shift [deg] puts on the line of compression. [deg], [Pa]"""
+    x, y = _between(samples, where[0], *(where[1] - before - round(shift) for before in _COMPRESSION))
+    return x + shift, y
+
+
+def _is_long(pressure: Array) -> bool:
+    return len(pressure) >= _FEWEST_POINTS and float(pressure.min()) > 0
+
+
+def _line(volume: Array, pressure: Array) -> _Compression:
+    """Return the line of compression or expansion through samples. [m3], [Pa]"""
+    along = np.log(volume)
     basis = np.vander(along - along.mean(), 3, increasing=True)
-    inverse, logarithms = np.linalg.pinv(basis), np.log(y)
+    inverse, logarithms = np.linalg.pinv(basis), np.log(pressure)
     curve = inverse @ logarithms
-    noise = float(np.sqrt(np.sum((basis @ curve - logarithms) ** 2) / (len(x) - 3)))
+    noise = float(np.sqrt(np.sum((basis @ curve - logarithms) ** 2) / (len(along) - 3)))
     error = noise * float(np.linalg.norm(inverse[2]))
     return _Compression(-float(curve[1]), float(curve[2]), error, noise, float(np.ptp(along)) / 2)
 
@@ -560,7 +570,7 @@ def _by_expansion(
     if last < _FEWEST_POINTS or least <= 0:
         return
     shifts = np.arange(max(-_EXPANSION / 2, math.ceil(centre - x[0])), _EXPANSION / 2)
-    lines = [_line((x[:last] + more, y[:last]), volume_at, cycle) for more in shifts]
+    lines = [_line(volume_at(np.mod(x[:last] + more, cycle)), y[:last]) for more in shifts]
     candidates = []
     for more, line, after in zip(shifts.tolist(), lines, lines[1:], strict=False):
         rate = after.bend - line.bend
