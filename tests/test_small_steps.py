@@ -25,6 +25,7 @@ from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.cli.__init__ import studio
 from crankwork.cli.options import DoubtfulError, parse_count
+from crankwork.cylinders.firing import possible_order
 from crankwork.description.machine_file import template
 from crankwork.description.shorthand import expanded
 from crankwork.formula.traced_value import given
@@ -431,3 +432,39 @@ def test_a_law_without_a_start_begins_where_it_ends() -> None:
     assert start in text
     laws = [crankwork.read_machine(one).mechanism.driver.law for one in (text, text.replace(start, ""))]
     assert laws[0] == laws[1]
+
+
+def test_an_order_that_a_crankshaft_allows_begins_with_its_first_cylinder() -> None:
+    assert possible_order((0.0, 120.0, 240.0), 720.0) == (1, 3, 2)
+    # the second cylinder stands at the dead centre from which angles count
+    assert possible_order((90.0, 0.0), 360.0) is None
+
+
+def test_a_folder_that_holds_what_no_run_wrote_is_full(tmp_path) -> None:
+    (tmp_path / files.MANIFEST).write_text("{}", "utf-8")
+    files._check_empty(tmp_path)
+    (tmp_path / "mine.txt").write_text("mine", "utf-8")
+    with pytest.raises(crankwork.CrankworkError, match="holds files already"):
+        files._check_empty(tmp_path)
+
+
+def test_a_file_of_the_user_is_kept_up_to_its_limit_and_begun_anew_above_it(tmp_path, monkeypatch) -> None:
+    monkeypatch.setenv("CRANKWORK_CACHE", str(tmp_path))
+    read = list[str]()
+    for length in (8, 9):
+        (tmp_path / "crankwork").mkdir(exist_ok=True)
+        (tmp_path / "crankwork" / "list").write_text("x" * length, "utf-8")
+        files.update_user_file("list", lambda before: read.append(before) or before, limit=8)
+    assert read == ["x" * 8, ""]
+
+
+def test_a_crank_that_reaches_over_the_pivot_of_a_shaper_is_told_in_millimetres() -> None:
+    with pytest.raises(crankwork.CrankworkError, match=r"crank \(300 mm\) .* pivot \(250 mm\)"):
+        crankwork.crank_shaper(crank=0.3, pivot_distance=0.25, lever=0.6, link=0.3, ram_height=0.2)
+
+
+def test_a_decimal_comma_does_not_hide_the_mistakes_after_it() -> None:
+    with pytest.raises(crankwork.CrankworkError) as told:
+        crankwork.Description('[crank]\nradius = 45,5\nspeed = "rapid"\n').machine()
+    assert "write 45.5" in str(told.value)
+    assert "rapid" in str(told.value)

@@ -213,6 +213,9 @@ def test_equations_of_moments_can_be_followed_with_a_calculator(name):
     lines = [line for equation in equations if "… = 0" in equation.text for line in equation.lines]
     worked = [computed(line) for line in lines if "Fraction" in repr(line)]
     assert len(worked) >= 1
+    for text in (one.text for one in equations if "^τ" in one.text):
+        moments, _, forces = text.rpartition("; ")
+        assert set(re.findall(r"(R_\w+)\^τ", moments)) <= set(forces.split(" "))
     for line in worked:
         *_, left, value = line.split("==")
         assert eval(left) == pytest.approx(float(value), rel=5e-3)  # noqa: S307 - numbers of a printed line
