@@ -191,6 +191,11 @@ def test_tables_of_motion_and_reactions_hold_the_columns(sheet, figure, head, ke
     assert [float(one) for one in shown] == pytest.approx(known, abs=6e-4 * np.max(np.abs(known)))
 
 
+def test_reactions_of_a_machine_that_a_slider_drives_have_the_force_that_drives_it():
+    said = [one.text for one in texts(sheets("driven-slider")[2].figure("reactions").drawing)]
+    assert "/{F}_{q}, N" in said
+
+
 @pytest.mark.slow
 def test_plans_are_measured_in_the_scale_that_is_written_under_them(drawn):
     """The table repeats the scales of the plans; a length read there, times the scale, is the velocity to 0.05 mm."""

@@ -99,6 +99,15 @@ def test_what_is_stored_is_what_the_tables_say_once_and_leads_to_others_of_the_p
     assert found == {"spark-engine": [], "excavator-boom": []}
 
 
+def test_figures_of_one_position_are_drawn_from_the_beginning_of_a_motion_to_its_end(written_of, stored) -> None:
+    figures = stored(written_of("excavator-boom", "ru"))["figures"]
+    drawn = [one["places"] for one in figures.values() if "places" in one]
+    assert len(drawn) > 0
+    for places in drawn:
+        assert places[0] == 0
+        assert places[-1] == pytest.approx(results_of("excavator-boom").period)
+
+
 VALUE = re.compile(r'<tr><th>([^<]*)<td>(.*)<td>(?:<button data-key="?([^">]*)"?>)?([^<]*)(?:</button>)?<td>(.*)')
 FIGURE = re.compile(r'<figure id="figure-([^"]*)">.*?<figcaption>([^<]*)', re.DOTALL)
 
