@@ -30,6 +30,8 @@ def test_polygons_have_the_moments_and_couples_of_the_table(results, language) -
     # couples count from the plane of the first, which has none
     assert closed == pytest.approx(np.cumsum(couples)[1:], abs=1e-9)
     assert abs(polygon[-1]) + abs(closed[-1]) < 1e-9
+    # a symbol and a unit each
+    assert [len(plot.titles[axis].split(", ")) for plot in drawing.plots[2:] for axis in "xy"] == [2] * 4
 
 
 def test_forces_over_a_turn_reach_their_extremes(results) -> None:

@@ -14,6 +14,8 @@ from crankwork.analysis.compare import comparison_key, difference_key
 from crankwork.note.document import Figure, Heading, Table
 from crankwork.report.figures import drawings
 from crankwork.report.tables import comparison_rows, comparison_text, sheets
+from each import for_each
+from notes import texts
 
 MACHINES = Path(__file__).parents[1] / "machines"
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -58,6 +60,15 @@ def test_columns_are_those_of_each_method_and_of_their_differences(name):
                 if drawn / np.max(np.abs(drawn)) != pytest.approx(column / np.max(np.abs(column)), abs=1e-9):
                     wrong.append((key, which))
     assert wrong == []
+
+
+@for_each(
+    ("others", "told"),
+    [(["textbook"], "Δ: textbook, two terms less exact"), (["textbook", "series:4"], "Δ: each less exact")],
+)
+def test_a_legend_says_what_is_taken_from_what(others, told):
+    drawing = drawings(by_methods("slider-crank", *others))["comparison"]
+    assert told in [one.text for one in texts(drawing)]
 
 
 @pytest.mark.elsewhere
