@@ -186,6 +186,16 @@ def test_two_links_that_are_added_stand_beside_the_middle_of_the_path_of_their_p
         assert float(pivot[0].removesuffix(" mm")) - middle[0] > 1e3 * (across.max() - across.min()) / 2, point
 
 
+def test_a_link_that_is_given_a_mass_has_its_centre_in_the_middle() -> None:
+    text = re.sub(r", mass = .*(?= \})", "", template("four-bar"))
+    description = crankwork.Description(text)
+    (masses,) = (
+        one for one in additions(description, crankwork.analyse(description.machine())) if one.name == "masses"
+    )
+    centres = {key: place for key, place in masses.fields.items() if key.endswith(".centre")}
+    assert centres == {"links.coupler.centre": ["87.5 mm", "0 mm"], "links.rocker.centre": ["56.25 mm", "0 mm"]}
+
+
 def test_colours_of_a_moving_picture_are_others_in_the_dark_for_areas_and_lines() -> None:
     style = moving_svg(moving_drawing(crankwork.read_machine(template("engine")), frames=8), "colour").decode()
     dark = style[style.index("@media (prefers-color-scheme: dark)") :].partition("</style>")[0]

@@ -311,8 +311,5 @@ def round_scale(least: float, among: Sequence[float] = (1, 2, 2.5, 4, 5)) -> flo
     (0.02, 0.4, 0.5)
     """
     power = math.floor(math.log10(least))
-    for factor in (*among, 10):
-        scale = float(f"{factor}e{power}")
-        if scale >= least * (1 - 1e-9):
-            return scale
-    return 10.0 ** (power + 1)
+    scales = (float(f"{factor}e{power}") for factor in (*among, 10))
+    return next(scale for scale in scales if scale >= least * (1 - 1e-9))

@@ -248,7 +248,13 @@ def literal(name: str) -> str:
 
 
 def printable(name: str, longest: int = 24) -> str:
-    """Return a name, shortened, with a box for each unprintable character."""
+    """Return a name, shortened, with a box for each unprintable character.
+
+    Examples
+    --------
+    >>> printable("piston"), printable("piston", longest=6), printable("piston", longest=5)
+    ('piston', 'piston', 'pist…')
+    """
     name = name if len(name) <= longest else f"{name[: longest - 1]}…"
     return "".join(letter if letter.isprintable() else "□" for letter in name)
 
