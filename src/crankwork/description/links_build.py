@@ -645,11 +645,9 @@ def _law_of_instant(driver: Values, start: float | None, wanted: str, reader: Re
     velocity, acceleration = (0.0 if rate is None else rate.value for rate in rates)
     period = driver.si("period") or _INSTANT
     end = start + velocity * period + acceleration * period**2 / 2
-    if end == start:
-        reader.add_error("driver.velocity", ErrorMessage("law_stands"))
-        return None
-    moved: LawKind = "constant-acceleration" if acceleration else "constant"
-    return Law((Segment(moved, end, 1.0, rates=(velocity, None)),), period, start, has_jerk=bool(driver["jerk"]))
+    moved: LawKind = "dwell" if end == start else "constant-acceleration" if acceleration else "constant"
+    segment = Segment(moved, end, 1.0, rates=(velocity, None))
+    return Law((segment,), period, start, has_jerk=bool(driver["jerk"]), is_instant="period" not in driver)
 
 
 def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:
