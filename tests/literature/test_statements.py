@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from crankwork.errors import CrankworkError
+from crankwork.report.notices import idle_texts
 from crankwork.report.summary import summary_text
 from each import for_each
 from machine_texts import analysed
@@ -66,6 +67,40 @@ method.weights = true
     assert results.value("driving_torque", at=70) == pytest.approx(torque, rel=1e-6)
 
 
+FOLLOWER = """
+format = 2
+fixed_points.O = ["0 mm", "0 mm"]
+guides.line = { through = "O", angle = "90 deg" }
+sliders.follower = { guide = "line", mass = "0.4 kg" }
+driver.slider = "follower"
+driver.start = "10 mm"
+driver.law = [{ kind = "cycloidal", to = "40 mm", over = "0.1 s" }, { kind = "dwell", over = "0.05 s" }]
+loads = [{ kind = "spring", slider = "follower", stiffness = "5 N/mm", free_length = "-10 mm" }]
+"""
+
+
+def test_a_spring_of_a_follower_is_free_below_its_origin() -> None:
+    """A cycloid rises with an acceleration of 2 pi h sin(2 pi t / T) / T2; the spring is pressed by 10 mm more."""
+    results = analysed(FOLLOWER)
+    for time in (0.02, 0.07):
+        turn = 2 * math.pi * time / 0.1
+        rise = 0.01 + 0.03 * (turn - math.sin(turn)) / (2 * math.pi)
+        force = 0.4 * 0.03 / 0.1**2 * 2 * math.pi * math.sin(turn) + 5000 * (rise + 0.01)
+        assert results.value("driver_force", at=time) == pytest.approx(force, rel=1e-12)
+
+
+@for_each(("begins", "told"), [
+    ("0 mm", "loads[1].at[1]: the force is zero on both sides of it"),
+    ("-5 mm", "loads[1].at[1]: beyond the travel of the sliding piece, 0 to 30 mm"),
+])  # fmt: skip
+def test_a_table_that_begins_with_no_force_is_told_why_its_beginning_has_no_effect(begins: str, told: str) -> None:
+    """The table counts from where the working stroke begins, 10 mm from the origin of the guide."""
+    law = FOLLOWER.partition("loads")[0]
+    load = f'at = ["{begins}", "20 mm", "50 mm"], force = ["0 N", "0 N", "9 N"]'
+    results = analysed(f'{law}loads = [{{ kind = "process", slider = "follower", {load} }}]')
+    assert idle_texts(results, "en")[0] == told
+
+
 CRANK = """
 format = 2
 fixed_points.O = ["0 m", "0 m"]
@@ -88,6 +123,12 @@ def test_a_statement_that_cannot_be_read_is_told_with_what_to_write(text: str, t
     with pytest.raises(CrankworkError) as refused:
         analysed(text)
     assert [line.split(": ", 1)[1] for line in str(refused.value).splitlines()] == [told]
+
+
+def test_a_length_between_two_points_is_not_below_zero() -> None:
+    spring = 'kind = "spring", between = ["A", "W"], stiffness = "8 N/m", free_length = "-3 mm"'
+    with pytest.raises(CrankworkError, match=r"loads\[1\]\.free_length: is a length between two points"):
+        analysed(f'{CRANK}fixed_points.W = ["9 m", "0 m"]\nloads = [{{ {spring} }}]')
 
 
 def test_a_list_of_zeros_has_no_decimal_comma() -> None:

@@ -385,6 +385,8 @@ def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader)
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_ends"))
     if len(set(load["between"] or "  x")) < 2:
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_twice", point=load["between"][0]))
+    if "between" in load and (load.si("free_length") or 0.0) < 0:
+        reader.add_error(f"{key}.free_length", ErrorMessage("spring_below_zero"))
     if load["kind"] == "force" and len(load["force"]) > 1:
         reader.add_error(f"{key}.force", ErrorMessage("entries", count=len(load["force"]), wanted=1))
     else:
