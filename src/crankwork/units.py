@@ -65,7 +65,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "inertia": [
         (1.0, "kg*m2 kgm2 кг·м²"), (1e-4, "kg*cm2 кг·см²"), (1e-6, "kg*mm2 кг·мм²"), (1e-7, "g*cm2 г·см²"),
         (_LB * _FT**2, "lb*ft2 lbm*ft2"), (_LB * _IN**2, "lb*in2 lbm*in2"), (_SLUG * _FT**2, "slug*ft2 lbf*ft*s2"),
-        (_LBF * _IN, "lbf*in*s2 lb-in-s2 in-lb-s2"), (KGF, "kgf*m*s2 kG*m*s2 кгс·м·с2"),
+        (_LBF * _IN, "lbf*in*s2 lb-in-s2 in-lb-s2"), (_LBF / 16 * _IN, "ozf*in*s2"), (KGF, "kgf*m*s2 kG*m*s2 кгс·м·с2"),
         (KGF / 100, "kgf*cm*s2 кгс·см·с2"),
     ],
     "speed": [
@@ -101,7 +101,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
                   (1e2, "N/cm Н/см"), (KGF * 1e2, "kgf/cm кгс/см"), (KGF * 1e3, "kgf/mm кгс/мм"), (KGF, "kgf/m кгс/м"),
                   (1e3 * _LBF / _IN, "kip/in")],
     "damping": [
-        (1.0, "N*s/m Н·с/м"), (1e3, "kN*s/m N*s/mm кН·с/м"), (_LBF / _IN, "lbf*s/in"), (_LBF / _FT, "lbf*s/ft"),
+        (1.0, "N*s/m Ns/m Н·с/м"), (1e3, "kN*s/m N*s/mm кН·с/м"), (_LBF / _IN, "lbf*s/in"), (_LBF / _FT, "lbf*s/ft"),
         (KGF, "kgf*s/m кгс·с/м"),
     ],
     "angular_damping": [(1.0, "N*m*s/rad N*m*s Н·м·с/рад Н·м·с"), (_LBF * _FT, "lbf*ft*s/rad lbf*ft*s"),
@@ -118,7 +118,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "torque": [
         (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m kG*m кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
-        (_LBF * _IN, "lbf*in lb-in"),
+        (_LBF * _IN, "lbf*in lb-in"), (_LBF / 16 * _IN, "ozf*in"),
         (1e-3, "N*mm Nmm Н·мм"), (1e-2, "N*cm Ncm Н·см"), (KGF / 100, "kgf*cm кгс·см"), (1e3 * _LBF * _FT, "kip*ft"),
         (1e3 * _LBF * _IN, "kip*in"), (1e3 * KGF, "tf*m тс·м"),
     ],
@@ -209,7 +209,7 @@ UNITS: dict[str, Unit] = {
 
 # signs and words that textbooks print otherwise than the table
 _SIGNS = str.maketrans("²³¹⁻−⋅∙•×·", "231--*****", "^{}")
-_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min", "lbm": "lb",
+_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min", "lbm": "lb", "lbs": "lb", "inches": "in", "feet": "ft",
           "hertz": "Hz", "Hertz": "Hz", "герц": "Гц", "Герц": "Гц"}  # fmt: skip
 
 
@@ -374,6 +374,7 @@ def parse(
     if spelling.lower() == "hp" and metric_hp:
         spelling, notice = "PS", "metric_horsepower"
     _ask_which(spelling, dimensions, number, name or "")
+    spelling = _of_weight(spelling, dimensions)
     unit = UNITS.get(spelling)
     if unit is not None and _is_also(unit, spelling) in dimensions and unit.dimension not in dimensions:
         # a rise has no zero
@@ -406,6 +407,16 @@ def parse(
         if weighed
         else ParsedQuantity(value, unit.dimension, spelling, notice)
     )
+
+
+def _of_weight(spelling: str, dimensions: tuple[str, ...]) -> str:
+    """Return a unit, or that with weights in the place of masses, lbf/in of lb/in, where that alone fits."""
+    unit = UNITS.get(spelling)
+    if unit is not None and {unit.dimension, _is_also(unit, spelling)} & {*dimensions}:
+        return spelling
+    weight = known_unit(re.sub(r"\bкг\b", "кгс", re.sub(r"\b(kg|lb|oz)s?\b", r"\1f", spelling)))
+    fits = weight and {UNITS[weight].dimension, _is_also(UNITS[weight], weight)} & {*dimensions}
+    return weight if fits else spelling
 
 
 def _is_also(unit: Unit, spelling: str) -> str:

@@ -18,8 +18,8 @@ from rules import every_formula
 PINNED = {
     "symbols": "1504f419eb08",
     "formulas": "44847bddb9a7",
-    "quantities": "3e8efa59d97c",
-    "defaults": "ad53ff1670a6",
+    "quantities": "e5688a11827e",
+    "defaults": "baf67d61b30e",
 }
 
 

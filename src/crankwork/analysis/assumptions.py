@@ -525,9 +525,9 @@ def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iter
             for index in range(len(load.force.at)):
                 path = f"loads[{number}].{key}[{index + 1}]"
                 if path in stated and not _acts(load.force, name, index, travel):
-                    code = (
-                        "beyond_stroke" if np.any(acting) else "never_acts" if any(load.force.values) else "zero_force"
-                    )
+                    is_inside = abs(load.force.at[index] - np.mean(travel)) <= (0.5 + _ROUNDING) * np.ptp(travel)
+                    of_entry = "zero_around" if is_inside else "beyond_stroke"
+                    code = of_entry if np.any(acting) else "never_acts" if any(load.force.values) else "zero_force"
                     yield IdleInput(path, code, values)
 
 

@@ -252,7 +252,9 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
     over = CycleInterpolant(followed, CrankGrid.from_degrees, end - start, start, program=program)
     limits = limits_of_transmissions(result) if result is not None and machine.working_range is None else {}
     extremes, unusual = quality_of(over, limits)
-    summary = _summary(moved.solved, over, extremes, is_whole=result is None)
+    law = machine.mechanism.driver.law
+    of_instant = law is not None and law.is_instant
+    summary = {} if of_instant else _summary(moved.solved, over, extremes, is_whole=result is None)
     summary |= rod_load_values(machine, over) if result is None else limits_of(result, trace)
     summary |= flow_values(machine, over)
     return _Singles(over, summary, tuple(notices), unusual, program)
@@ -307,7 +309,7 @@ def _of_machine(machine: Machine) -> Iterator[Notice]:
     if isinstance(driver, Crank) and any(item.pressure_angle is None for item in driver.geared):
         yield Notice("geared", {})
     if driver.law is not None:
-        yield Notice("by_law", {})
+        yield Notice("instant" if driver.law.is_instant else "by_law", {})
         jumps = rate_jumps(driver.law, turns=driver.turns)
         for number, before, after in jumps[:1]:
             time = driver.law.period * math.fsum(segment.share for segment in driver.law.segments[:number])

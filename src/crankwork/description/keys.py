@@ -76,7 +76,7 @@ _LOAD = TableSpec("load", {
     "start": KeySpec(COORDINATE, only=_PROCESS),
     "acts": KeySpec(Choice(("forward", "both")), default="forward", only=_PROCESS),
     "stiffness": KeySpec(Quantity(("stiffness",), 0.0, 1e12), required=True, only=_SPRING),
-    "free_length": KeySpec(Quantity(("length",), 0.0, 1e3), default="0 mm", only=_SPRING),
+    "free_length": KeySpec(COORDINATE, default="0 mm", only=_SPRING),
     "preload": KeySpec(_FORCE, default="0 N", only=_SPRING),
     "damping": KeySpec(Quantity(("damping",), 0.0, 1e12), required=True, only=_DAMPER),
 })  # fmt: skip

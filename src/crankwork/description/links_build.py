@@ -385,6 +385,8 @@ def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader)
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_ends"))
     if len(set(load["between"] or "  x")) < 2:
         reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_twice", point=load["between"][0]))
+    if "between" in load and (load.si("free_length") or 0.0) < 0:
+        reader.add_error(f"{key}.free_length", ErrorMessage("spring_below_zero"))
     if load["kind"] == "force" and len(load["force"]) > 1:
         reader.add_error(f"{key}.force", ErrorMessage("entries", count=len(load["force"]), wanted=1))
     else:
@@ -645,11 +647,9 @@ def _law_of_instant(driver: Values, start: float | None, wanted: str, reader: Re
     velocity, acceleration = (0.0 if rate is None else rate.value for rate in rates)
     period = driver.si("period") or _INSTANT
     end = start + velocity * period + acceleration * period**2 / 2
-    if end == start:
-        reader.add_error("driver.velocity", ErrorMessage("law_stands"))
-        return None
-    moved: LawKind = "constant-acceleration" if acceleration else "constant"
-    return Law((Segment(moved, end, 1.0, rates=(velocity, None)),), period, start, has_jerk=bool(driver["jerk"]))
+    moved: LawKind = "dwell" if end == start else "constant-acceleration" if acceleration else "constant"
+    segment = Segment(moved, end, 1.0, rates=(velocity, None))
+    return Law((segment,), period, start, has_jerk=bool(driver["jerk"]), is_instant="period" not in driver)
 
 
 def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:

@@ -62,7 +62,7 @@ _CRANK = TableSpec("driving", {
     "pivot": KeySpec(NAME, required=True),
     "pin": KeySpec(NAME, required=True),
     "radius": KeySpec(LENGTH, required=True),
-    "speed": KeySpec(SPEED, required=True),
+    "speed": KeySpec(SPEED._replace(negative="speed_clockwise"), required=True),
     "angular_acceleration": NO_ACCELERATION,
     "start": NO_ANGLE,
     "direction": KeySpec(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
@@ -131,7 +131,8 @@ _LINK = TableSpec("link", {
     **_MASS,
     "mass": _MASS_OF_LINK,
     "centre": _CENTRE,
-    "inertia": _MASS["inertia"]._replace(kind=_INERTIA),
+    "inertia": _MASS["inertia"]._replace(kind=_INERTIA, instead_of=("radius_of_gyration",)),
+    "radius_of_gyration": KeySpec(LENGTH, instead_of=("inertia",), only={"mass": ()}),
 })  # fmt: skip
 
 _SLIDER = TableSpec("slider", {

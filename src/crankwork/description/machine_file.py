@@ -103,7 +103,7 @@ _WORDS = re.compile(r"\{([a-z][\w.]*)\}")
 _SCHOOL = re.compile(r'^(school = )"\w+"', re.MULTILINE)
 _COMMENT = re.compile(rf"^# {_WORDS.pattern}$", re.MULTILINE)
 # decimal commas in a list, without spaces after them, and more mistakes of syntax than are looked for
-_PAIRS = re.compile(r"=\s*(\[\s*(?:\d+,\d+,\s+)*0,\d+(?:,\s+\d+,\d+)*\s*\])")
+_PAIRS = re.compile(r"=\s*(\[\s*(?:\d+,\d+,\s+)*0,(?!0\s*\])\d+(?:,\s+\d+,\d+)*\s*\])")
 _MOST_MISTAKES = 20
 _STRINGS = re.compile(r"""\"(?:\\.|[^\"\\])*\"?|'[^']*'?""")
 

@@ -91,7 +91,8 @@ class ListOf(NamedTuple):
                 example = '"a"'
         if self.from_file:
             return ErrorMessage("list_or_file", example=", ".join([example] * self.fewest))
-        return ErrorMessage("list_like", example=f"[{example}]")
+        count = self.fewest if isinstance(self.entry, Quantity) else 1
+        return ErrorMessage("list_like", example=f"[{', '.join([example] * max(count, 1))}]")
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an array."""

@@ -187,6 +187,7 @@ class Quantity(NamedTuple):
     low: float
     high: float
     above: bool = False
+    negative: str = ""  # Name of the message about a value below zero
 
     def read(self, value: object, key: str, reader: Reader) -> MeasuredValue | None:
         """Return SI value and dimension."""
@@ -212,7 +213,8 @@ class Quantity(NamedTuple):
             reader.add_error(key, _by_sides(value, self._advised(error.args[0], value, key, reader)))
             return None
         if not self._holds(parsed.value):
-            reader.add_error(key, self._out_of_range(value.strip(), parsed.dimension))
+            advice = ErrorMessage(self.negative, value=value.strip()) if self.negative and parsed.value < 0 else None
+            reader.add_error(key, advice or self._out_of_range(value.strip(), parsed.dimension))
             return None
         if deviation is not None and not self._deviates(parsed, deviation, key, reader):
             return None

@@ -304,6 +304,9 @@ def _body(body: Body, paths: _Paths) -> Body:
     if member is not None and member.length_mass is not None:
         per_length = given(f"mass_per_length.{name}", member.length_mass.value, f"{path}.mass")
         mass = _untyped((per_length * length).named(f"body_mass.{name}"))
+    if member is not None and member.gyration_radius:
+        radius = given(f"body_gyration_radius.{name}", member.gyration_radius, f"{path}.radius_of_gyration")
+        return replace(body, mass=mass, inertia=_untyped((mass * radius * radius).named(f"body_inertia.{name}")))
     if member is None or member.length_inertia is None:
         return replace(body, mass=mass, inertia=_stated(f"body_inertia.{name}", body.inertia, f"{path}.inertia"))
     share = given(f"inertia_share.{name}", member.length_inertia.share, f"{path}.inertia")

@@ -64,6 +64,7 @@ class Law:
     period: float  # [s]
     start: float  # The coordinate at time zero [m] or [rad]
     has_jerk: bool = False  # Whether its third rate is told
+    is_instant: bool = False  # Whether its beginning alone is asked for
 
 
 @dataclass(frozen=True)

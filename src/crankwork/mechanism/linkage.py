@@ -48,6 +48,7 @@ class Member:
     # How the mass and the moment of inertia follow from the length, if they are stated so, and that length [m]
     length_mass: MassPerLength | None = None
     length_inertia: LengthInertia | None = None
+    gyration_radius: float = 0.0  # From which the moment of inertia follows, if it is stated so [m]
     bar_length: float = 0.0
 
 

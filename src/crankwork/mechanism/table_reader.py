@@ -336,7 +336,9 @@ class _Reader:
         return 0.0 if isinstance(stated, LengthInertia) else float(stated)
 
     def _of_length(self, key: str, table: Table, member: Member, places: Mapping[str, Point]) -> Member:
-        """Return a body with the moment of inertia that follows from the distance of its first two places."""
+        """Return a body with the moment of inertia that follows from a radius, or from its first two places."""
+        if radius := table.get("radius_of_gyration"):
+            return replace(member, inertia=member.mass * radius**2, gyration_radius=radius)
         stated = table.get("inertia")
         if not isinstance(stated, LengthInertia):
             return member
@@ -358,7 +360,8 @@ class _Reader:
         elif through in ground and not link:
             point = ground[through]
         else:
-            self._problem(f"{key}.through", ErrorMessage("through_unknown", name=through))
+            refusal = "through_of_link" if link else "through_unknown"
+            self._problem(f"{key}.through", ErrorMessage(refusal, name=through, link=link))
             point = (0.0, 0.0)
         return Guide(point, table.get("angle", 0.0), link)
 

@@ -36,8 +36,9 @@ _LINKAGE = table(
     reduced_inertia="kg*m2", total_reduced_inertia="kg*m2", total_reduced_inertia_1="kg*m2", reduced_inertia_1="kg*m2",
     reduced_torque="N*m", static_torque="N*m", dynamic_torque="N*m", driving_torque="N*m", balancing_torque="N*m",
     kinetic_energy="J", efficiency="", body_mass="kg", body_inertia="kg*m2", end_inertia="kg*m2", centre_share="",
-    mass_per_length="kg/m", inertia_share="", centre_x="mm", centre_y="mm", centre_acceleration="m/s2",
-    link_angle="deg", link_angular_acceleration="rad/s2", velocity_ratio="mm", rotation_ratio="",
+    body_gyration_radius="mm", mass_per_length="kg/m", inertia_share="", centre_x="mm", centre_y="mm",
+    centre_acceleration="m/s2", link_angle="deg", link_angular_acceleration="rad/s2", velocity_ratio="mm",
+    rotation_ratio="",
     # forces in joints
     link_inertia_force="N", link_inertia_torque="N*m", link_torque="N*m", joint_force="N", axial_force="N",
     force_share="", normal_force="N", tooth_force="N", separating_force="N", normal_moment="N*m", pin_radius="mm",

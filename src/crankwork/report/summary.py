@@ -84,6 +84,8 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
         lines += ["", *([translate(f"subjects.{name}", language)] if len(subjects) > 1 else [])]
         lines += rows[: len(values)]
         rows = rows[len(values) :]
+    if not subjects and results.columns:
+        lines += ["", values_text(results, 0.0, language)]
     if results.checks:
         lines += ["", translate("report.checks", language)]
         lines += aligned(
