@@ -149,7 +149,7 @@ def build_layout(
     """Return the layout of any arrangement: W engines, narrow V engines and those without a name.
 
     Throws are angles along the shaft ahead of the first, positive with the rotation [deg]; without them they follow
-    from even firing. Uneven intervals that are not `uneven` on purpose are a notice.
+    from even firing, and an empty order is one that they allow. Uneven intervals not `uneven` on purpose are a notice.
 
     At the crank angle phi of cylinder 1 from its own axis, the crankpin of cylinder k stands at
     phi + axis_1 + pin_k, so its own crank angle is phi - (axis_k - axis_1 - pin_k): the bracket is its firing angle,
@@ -158,11 +158,13 @@ def build_layout(
     seats = _seats(banks)
     if strokes not in (2, 4):
         raise LayoutError("engine.strokes", ErrorMessage("strokes_wrong", count=strokes))
-    order, cycle = checked_order(order, banks.cylinders), 180.0 * strokes
-    if throws is None:
-        pins = _pins_of_even_firing(banks, seats, order, cycle, uneven=uneven)
-    else:
+    cycle = 180.0 * strokes
+    if throws is not None:
         pins = _pins_of_throws(seats, throws)
+        order = checked_order(order or _allowed_order(_dead_centres(seats, pins), cycle), banks.cylinders)
+    else:
+        order = checked_order(order, banks.cylinders)
+        pins = _pins_of_even_firing(banks, seats, order, cycle, uneven=uneven)
     firing = _firing(seats, pins, order, cycle)
     steps = intervals([firing[number - 1] for number in order], cycle)
     if is_even(steps):
@@ -269,6 +271,12 @@ def _disagreement(
 
 def _or(first: str, other: str) -> ErrorMessage:
     return ErrorMessage("way_or", first=first, other=other)
+
+
+def _allowed_order(dead_centres: Sequence[float], cycle: float) -> Sequence[int]:
+    """Return the most even order of a crankshaft; the cylinders in their order if two fire at once in any."""
+    even = even_orders(dead_centres, cycle, limit=1)
+    return even[0] if even else possible_order(dead_centres, cycle) or range(1, len(dead_centres) + 1)
 
 
 def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> list[float]:

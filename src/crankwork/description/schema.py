@@ -434,7 +434,10 @@ class TableSpec(NamedTuple):
         # what is there tells which alternative is meant
         depended = {other for stated in value if stated in self.keys for other in self.keys[stated].only}
         alternatives = tuple(key for key in alternatives if key in depended) or alternatives
-        advice = tuple(_advice(alternative, self.keys[alternative], prefix) for alternative in alternatives)
+        needs = [self.keys[stated].only.get(name) for stated in value if stated in self.keys]
+        examples = [entry._replace(example=shown(wanted[0])) for wanted in needs if wanted]
+        advice = tuple(_advice(key, self.keys[key], prefix) for key in alternatives)
+        advice = (_advice(name, examples[0], prefix),) if examples else advice
         reader.add_error(f"{prefix}{alternatives[0]}", ErrorMessage("missing", advice=advice))
 
     def schema(self, language: Language, /) -> dict[str, Any]:

@@ -239,9 +239,10 @@ def solve_diagram(
 
 
 def counts_from_top(points: Mapping[str, DiagramPoint], pieces: Sequence[Piece]) -> bool:
-    """Return whether a diagram is a table over the stroke, which begins where the volume is least."""
+    """Return whether a diagram begins where the volume is least: a table over the stroke, or points without angles."""
     first = points.get(pieces[0].points[0]) if pieces else None
-    return first is not None and first.stroke == 0.0 and bool(first.inputs)
+    has_angles = first is not None and not first.inputs and any(point.angle is not None for point in points.values())
+    return first is not None and first.stroke == 0.0 and not has_angles
 
 
 class _Solver:
