@@ -822,17 +822,33 @@ def test_valves_ask_for_a_cycle_of_one_turn() -> None:
         analysed(STEAM.split("[gas]", maxsplit=1)[0] + '[gas]\nvalves = { suction = "1 bar", discharge = "8 bar" }\n')
 
 
-@for_each(("harmonics", "excess", "turns"), [
-    ("{ order = 2, sin = \"9500 N*m\", cos = \"-5700 N*m\" }", math.hypot(9500, 5700), 1),
-    ("{ order = 0.5, sin = \"600 N*m\" }", 600 * 4, 2),
-])  # fmt: skip
-def test_harmonics_repeat_by_themselves(harmonics: str, excess: float, turns: int) -> None:
-    """A sine of amplitude A and order k gives 2 A / k between its zeros; work is counted over full turns."""
-    results = analysed(f"""
+def test_harmonics_repeat_by_themselves() -> None:
+    """A sine of amplitude A and order k gives 2 A / k between its zeros; work is counted over a turn."""
+    results = analysed("""
 format = 2
 crank.speed = "180 rpm"
 flywheel.fluctuation = 0.01
-torque = {{ constant = "20 kN*m", harmonics = [{harmonics}] }}
+torque = { constant = "20 kN*m", harmonics = [{ order = 2, sin = "9500 N*m", cos = "-5700 N*m" }] }
 """)
-    assert results["excess_work"] == pytest.approx(excess, rel=1e-9)
-    assert results["work_per_cycle"] == pytest.approx(20000 * 2 * math.pi * turns, rel=1e-12)
+    assert results["excess_work"] == pytest.approx(math.hypot(9500, 5700), rel=1e-9)
+    assert results["work_per_cycle"] == pytest.approx(20000 * 2 * math.pi, rel=1e-12)
+
+
+@for_each("throws", ["", 'throws = ["0 deg", "180 deg"]'])
+def test_opposed_cylinders_have_opposed_cranks(throws: str) -> None:
+    """Forces cancel; first-order and centrifugal forces of both throws, 150 mm apart, make a couple."""
+    results = analysed(f"""
+crank = {{ stroke = "120 mm", speed = "740 rpm" }}
+rod = {{ length = "300 mm", mass = "6 kg", small_end_share = 0.3 }}
+piston.mass = "9 kg"
+[engine]
+layout = "boxer"
+cylinders = 2
+strokes = 2
+spacing = "150 mm"
+{throws}
+""")
+    assert not [key for key in results.summary if key.startswith("free_force")]
+    couple = (9 + 6) * 0.06 * (740 * RPM) ** 2 * 0.15
+    assert results["free_moment.residual.1"] == pytest.approx(couple, rel=1e-9)
+    assert not results.notices

@@ -274,9 +274,9 @@ def _or(first: str, other: str) -> ErrorMessage:
 
 
 def _allowed_order(dead_centres: Sequence[float], cycle: float) -> Sequence[int]:
-    """Return the most even order of a crankshaft; the cylinders in their order if two fire at once in any."""
+    """Return an even order of a crankshaft, or another one if it has none."""
     even = even_orders(dead_centres, cycle, limit=1)
-    return even[0] if even else possible_order(dead_centres, cycle) or range(1, len(dead_centres) + 1)
+    return even[0] if even else possible_order(dead_centres, cycle)
 
 
 def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> list[float]:
@@ -286,25 +286,24 @@ def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> l
 def _firing(
     seats: Sequence[CylinderPosition], pins: Sequence[float], order: tuple[int, ...], cycle: float
 ) -> tuple[float, ...]:
-    """Return the firing angles of the order; raise LayoutError with possible orders and a crank for this one."""
+    """Return the firing angles of the order; raise LayoutError with possible orders and a crank for this one.
+
+    Two fire at once where the crankshaft allows nothing else, as with opposed cranks of opposed cylinders.
+    """
     dead_centres = _dead_centres(seats, pins)
-    angles = firing_angles(order, dead_centres, cycle)
+    possible = even_orders(dead_centres, cycle, limit=3) or [possible_order(dead_centres, cycle)]
+    together = firing_angles(possible[0], dead_centres, cycle) is None
+    angles = firing_angles(order, dead_centres, cycle, together=together)
     if angles:
         return angles
-    alternatives = [order_text(allowed) for allowed in even_orders(dead_centres, cycle, limit=3)]
-    possible = possible_order(dead_centres, cycle)
-    if not alternatives and possible:
-        alternatives.append(order_text(possible))
-    values = {"order": order_text(order), "others": ", ".join(alternatives)}
-    if len({seat.throw for seat in seats}) == len(seats):
-        needed = even_angles(order, cycle)
-        pairs = zip(seats, needed, strict=True)
-        throws = {seat.throw: wrap_angle(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
-        quoted = ", ".join(f'"{throws[throw]:.7g} deg"' for throw in sorted(throws))
-        name = "order_refused_both" if alternatives else "order_refused_throws"
-        raise LayoutError("engine.firing_order", ErrorMessage(name, **values, throws=quoted))
-    name = "order_refused_others" if alternatives else "order_refused"
-    raise LayoutError("engine.firing_order", ErrorMessage(name, **values))
+    values = {"order": order_text(order), "others": ", ".join(order_text(allowed) for allowed in possible)}
+    if len({seat.throw for seat in seats}) < len(seats):
+        raise LayoutError("engine.firing_order", ErrorMessage("order_refused_others", **values))
+    needed = even_angles(order, cycle)
+    pairs = zip(seats, needed, strict=True)
+    throws = {seat.throw: wrap_angle(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
+    quoted = ", ".join(f'"{throws[throw]:.7g} deg"' for throw in sorted(throws))
+    raise LayoutError("engine.firing_order", ErrorMessage("order_refused_both", **values, throws=quoted))
 
 
 def _places(

@@ -30,6 +30,8 @@ J = TypeVar("J")
 _TABLES = ("shaft", "bearings", "balance")
 # of bearings, what any linkage has whose crank turns fully
 _OF_LINKAGE = {"pins", "rays"}
+# throws of two cylinders without a customary order
+_PAIRS = {"inline": None, "V": [0.0], "W": [0.0], "boxer": [0.0, 180.0]}
 
 
 def build_engine(
@@ -101,14 +103,14 @@ def _layout(
     usual = _usual(table, strokes)
     order = [int(number) for number in table["firing_order"] if number]
     is_pair = _is_free_pair(table, strokes, burns=burns)
-    order = order or [1, 2] * is_pair
     if not order and kind != "radial":
         if usual is not None:
             order, throws = list(usual.order), throws or list(usual.throws)
         elif throws is None:
-            if cylinders != (2 if kind == "V" else len(table["bank_angles"])):
+            is_twin = cylinders == 2 and not table["own_throws"]
+            throws = _PAIRS[kind] if is_twin else [0.0] * (cylinders == len(table["bank_angles"]))
+            if not throws:
                 raise LayoutError("engine.firing_order", _no_order(table, strokes))
-            throws = [0.0]
     options: dict[str, Any] = {
         "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"] or is_pair, "tops": tops,
     }  # fmt: skip

@@ -129,7 +129,9 @@ def _turning(values: Values, shaft: _Shaft) -> ShaftTorques | None:
     """Return the torques that drive and load a shaft."""
     reader, given = shaft.reader, [name for name in _TABLES if name in values]
     periods = {name: _period(values[name], shaft) for name in given}
-    known = [period for period in periods.values() if period is not None] or _turns([values[name] for name in given])
+    known = [period for period in periods.values() if period is not None]
+    if not known and {form for name in given for form in FORMS if form in values[name]} == {"harmonics"}:
+        known = [math.tau]
     if not known:
         for name in given:
             reader.add_error(
@@ -156,19 +158,6 @@ def _period(values: Values, shaft: _Shaft) -> float | None:
     if "rate" in values:
         return math.tau * shaft.speed / float(values["rate"].value)
     return None if "period" not in values else _angle(values["period"], shaft)
-
-
-def _turns(tables: Sequence[Values]) -> list[float]:
-    """Return the full turns after which torques of harmonics alone repeat, nothing for others. [rad]"""
-    orders = [
-        harmonic["order"] for table in tables for harmonic in table["harmonics"] if harmonic and "order" in harmonic
-    ]
-    if not orders or any(form in table for table in tables for form in FORMS if form != "harmonics"):
-        return []
-    period: float | None = math.tau
-    for order in orders:
-        period = period and common_period(period, math.tau / order)
-    return [period] if period else []
 
 
 def _angle(given: MeasuredValue, shaft: _Shaft) -> float:
