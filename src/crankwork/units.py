@@ -267,6 +267,7 @@ _IMPERIAL = {
     "kg/m3": "lb/ft3", "kg/m": "lb/ft", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
     "l/s": "ft3/min",
     "m3/min": "ft3/min", "MPa/deg": "psi/deg", "MPa/mm": "psi/in", "J/deg": "ft*lbf/deg", "degC": "degF",
+    "K": "degR", "J/(kg*K)": "Btu/(lb*R)",
 }  # fmt: skip
 
 
