@@ -270,7 +270,7 @@ def test_a_hundred_kilobytes_are_refused_at_once_and_briefly() -> None:
 SIZES = {
     "": 1.0, "deg": math.pi / 180, "rad": 1.0, "s": 1.0, "K": 1.0, "1/K": 1.0, "rpm": math.pi / 30, "Hz": 2 * math.pi,
     "rad/s": 1.0, "rad/s2": 1.0, "mm": 1e-3, "m": 1.0, "cm2": 1e-4, "m2": 1.0, "cm3": 1e-6, "l": 1e-3, "m3": 1.0,
-    "l/s": 1e-3,
+    "l/s": 1e-3, "degR": 5 / 9, "Btu/(lb*R)": 4186.8,
     "m/s": 1.0, "m/s2": 1.0, "m/s3": 1.0, "rad/s3": 1.0,
     "km/h": 1 / 3.6, "kg": 1.0, "g": 1e-3, "g/cm2": 10.0, "kg/m2": 1.0, "kg*m2": 1.0, "kg*m": 1.0, "N": 1.0,
     "N*m": 1.0, "MPa": 1e6, "Pa": 1.0, "J": 1.0, "kW": 1e3, "W": 1.0, "N/m": 1.0, "N*s/m": 1.0, "N*m*s/rad": 1.0,

@@ -48,7 +48,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
                (_IN, "in inch"), (_FT, "ft")],
     "area": [(1e-4, "cm2 см2"), (1e-6, "mm2 мм2"), (1.0, "m2 м2"), (_IN**2, "in2"), (_FT**2, "ft2")],
     "volume": [
-        (1e-6, "cm3 cc см3"), (1e-3, "l L dm3 л дм3"), (1e-9, "mm3 мм3"), (1.0, "m3 м3"), (_IN**3, "in3 cu.in"),
+        (1e-6, "cm3 cc см3 ml мл"), (1e-3, "l L dm3 л дм3"), (1e-9, "mm3 мм3"), (1.0, "m3 м3"), (_IN**3, "in3 cu.in"),
         (_FT**3, "ft3 cu.ft"),
     ],
     "area_moment": [(1e-8, "cm4 см4"), (1e-12, "mm4 мм4"), (1.0, "m4 м4"), (_IN**4, "in4")],
@@ -108,16 +108,16 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
                         (_LBF * _IN, "lbf*in*s/rad lbf*in*s"), (KGF, "kgf*m*s/rad kgf*m*s кгс·м·с/рад")],
     "torsional_stiffness": [
         (1.0, "N*m/rad Н·м/рад"), (1e3, "kN*m/rad кН·м/рад"), (1e6, "MN*m/rad МН·м/рад"), (KGF, "kgf*m/rad кгс·м/рад"),
-        (_LBF * _FT, "lbf*ft/rad lb-ft/rad"), (_LBF * _IN, "lbf*in/rad lb-in/rad"),
+        (_LBF * _FT, "lbf*ft/rad lb-ft/rad"), (_LBF * _IN, "lbf*in/rad lb-in/rad in-lb/rad"),
         (180 / math.pi, "N*m/deg N*m/° Н·м/град"),
     ],
     "force": [
-        (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (10.0, "daN даН"), (KGF, "kgf кгс kG"), (1e3 * KGF, "tf тс"),
+        (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (10.0, "daN даН"), (KGF, "kgf кгс kG kp"), (1e3 * KGF, "tf тс"),
         (_LBF, "lbf"), (1e3 * _LBF, "kip klbf"),
         (_LBF / 16, "ozf"),
     ],
     "torque": [
-        (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m kG*m кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
+        (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m kG*m kpm кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
         (_LBF * _IN, "lbf*in lb-in"), (_LBF / 16 * _IN, "ozf*in"),
         (1e-3, "N*mm Nmm Н·мм"), (1e-2, "N*cm Ncm Н·см"), (KGF / 100, "kgf*cm кгс·см"), (1e3 * _LBF * _FT, "kip*ft"),
         (1e3 * _LBF * _IN, "kip*in"), (1e3 * KGF, "tf*m тс·м"),
@@ -156,7 +156,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "pressure_by_length": [
         (1e9, "MPa/mm N/mm2/mm МПа/мм"), (1e8, "bar/mm бар/мм"), (1e7, "bar/cm бар/см"),
         (1e6, "MPa/m kPa/mm kN/m2/mm МПа/м кПа/мм"), (1.0, "Pa/m Па/м"),
-        (_LBF / _IN**3, "psi/in"),
+        (_LBF / _IN**3, "psi/in"), (KGF * 1e7, "kgf/cm2/mm at/mm кгс/см2/мм"),
     ],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
     "specific_heat": [
@@ -164,33 +164,33 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (4186.8, "kcal/(kg*K) Btu/(lb*R) Btu/lb*R ккал/(кг*К)"), (KGF, "kgf*m/(kg*K) кгс·м/(кг*К)"),
         (_FT * KGF * 1.8, "ft*lbf/(lb*R) ft*lbf/lb*R lbf*ft/(lb*R)"),
     ],
-    "density": [(1.0, "kg/m3 кг/м3"), (1e3, "g/cm3 г/см3"), (_LB / _FT**3, "lb/ft3"), (_LB / _IN**3, "lb/in3"),
-                (_SLUG / _FT**3, "slug/ft3")],
+    "density": [(1.0, "kg/m3 кг/м3"), (1e3, "g/cm3 г/см3 kg/l kg/L kg/dm3 g/ml g/cc кг/л кг/дм3"),
+                (_LB / _FT**3, "lb/ft3"), (_LB / _IN**3, "lb/in3"), (_SLUG / _FT**3, "slug/ft3")],
     "specific_amount": [(1.0, "kmol/kg кмоль/кг")],
     "molar_mass": [(1.0, "kg/kmol кг/кмоль")],
     "molar_energy": [(1.0, "kJ/kmol кДж/кмоль")],
     "molar_heat": [(1.0, "kJ/(kmol*K) кДж/(кмоль*К)")],
     "fuel_consumption": [
         (1 / 3.6e9, "g/(kW*h) g/kWh г/(кВт*ч)"), (1.0, "kg/J кг/Дж"),
-        (_LB / (550 * 3600 * _LBF * _FT), "lb/(hp*h) lb/hph lb/hp*h"),
+        (_LB / (550 * 3600 * _LBF * _FT), "lb/(hp*h) lb/hph lb/hp*h lb/(bhp*h) lb/bhp*h"),
         (1 / 3.6e6, "kg/(kW*h) kg/kWh кг/(кВт*ч)"), (1e-3 / (75 * KGF * 3600), "g/(PS*h) г/(л.с.*ч)"),
     ],
     "mass_rate": [
         (1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с"), (1 / 60, "kg/min кг/мин"), (_LB / 3600, "lb/h"),
-        (_LB / 60, "lb/min"), (_LB, "lb/s"), (1e-3, "g/s г/с"),
+        (_LB / 60, "lb/min"), (_LB, "lb/s"), (1e-3, "g/s г/с"), (1 / 3.6, "t/h т/ч"),
     ],
     "volume_rate": [
         (1 / 60, "m3/min м3/мин"), (1.0, "m3/s м3/с"), (1 / 3600, "m3/h м3/ч"), (1e-3, "l/s L/s л/с"),
         (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min cfm"), (_FT**3, "ft3/s cfs"), (_IN**3, "in3/s"),
-        (1e-3 / 3600, "l/h L/h л/ч"), (231 * _IN**3 / 60, "gal(US)/min gpm(US)"),
-        (4.54609e-3 / 60, "gal(UK)/min gpm(UK)"),
+        (1e-3 / 3600, "l/h L/h л/ч"), (1e-6, "cm3/s cc/s ml/s см3/с"), (1e-6 / 60, "cm3/min cc/min ml/min см3/мин"),
+        (231 * _IN**3 / 60, "gal(US)/min gpm(US)"), (4.54609e-3 / 60, "gal(UK)/min gpm(UK)"),
     ],
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 Вт/м3")],
     "per_temperature": [(1.0, "1/K 1/К")],
     "volume_per_temperature": [(1e-6, "cm3/K см3/К"), (1.0, "m3/K м3/К")],
     "speed_per_temperature": [(1.0, "m/(s*K) м/(с*К)")],
     "power": [
-        (1e3, "kW кВт"), (1.0, "W Вт"), (1e6, "MW МВт"), (75 * KGF, "PS л.с. лс mã_lực hp(M)"),
+        (1e3, "kW кВт"), (1.0, "W Вт"), (1e6, "MW МВт"), (75 * KGF, "PS л.с. лс mã_lực hp(M) CV cv ch"),
         (550 * _LBF * _FT, "hp(I) bhp"), (_LBF * _FT, "ft*lbf/s"), (KGF, "kgf*m/s кгс·м/с"),
         (1e3 / 60, "kJ/min кДж/мин"), (1e3 / 3600, "kJ/h кДж/ч"), (4186.8 / 3600, "kcal/h ккал/ч"),
         (1055.05585262 / 60, "Btu/min"), (1055.05585262 / 3600, "Btu/h"), (_LBF * _FT / 60, "ft*lbf/min"),
@@ -210,7 +210,7 @@ UNITS: dict[str, Unit] = {
 # signs and words that textbooks print otherwise than the table
 _SIGNS = str.maketrans("²³¹⁻−⋅∙•×·", "231--*****", "^{}")
 _WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min", "lbm": "lb", "lbs": "lb", "inches": "in", "feet": "ft",
-          "hertz": "Hz", "Hertz": "Hz", "герц": "Гц", "Герц": "Гц"}  # fmt: skip
+          "hr": "h", "hertz": "Hz", "Hertz": "Hz", "герц": "Гц", "Герц": "Гц"}  # fmt: skip
 
 
 def _plain(name: str) -> str:
@@ -267,6 +267,7 @@ _IMPERIAL = {
     "kg/m3": "lb/ft3", "kg/m": "lb/ft", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
     "l/s": "ft3/min",
     "m3/min": "ft3/min", "MPa/deg": "psi/deg", "MPa/mm": "psi/in", "J/deg": "ft*lbf/deg", "degC": "degF",
+    "K": "degR", "J/(kg*K)": "Btu/(lb*R)",
 }  # fmt: skip
 
 
@@ -474,6 +475,10 @@ def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values:
     ]
     if "temperature" in dimensions[0] and name.translate(TO_LATIN).upper() in {"C", "F"}:
         near = [f"°{name.translate(TO_LATIN).upper()}"]
+    # absolute or gauge, as in `psig`, `bar(a)` and `ата`
+    counted = known_unit(re.sub(r"\(?[agüаи]\)?\Z", "", name))
+    if counted in all_spellings and "pressure" in dimensions:
+        return ErrorMessage("unit_counted", unit=_short(name), plain=f"{number} {counted}")
     mixed = _other_alphabet(name)
     if mixed in all_spellings:
         return ErrorMessage("unit_look_alike", unit=_short(name), nearest=f"{number} {mixed}")

@@ -204,7 +204,6 @@ def test_the_second_bank_of_a_v_may_hang_on_the_first():
             "engine.articulated",
             ["leave out engine.pin_offset"],
         ),
-        (lambda: inline(2, (1, 2), throws=(0, 0), strokes=2), "engine.firing_order", ["does not allow"]),
     ],
 )
 def test_what_does_not_fit_is_refused_with_a_way_out(make, key, parts):

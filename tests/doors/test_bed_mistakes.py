@@ -67,6 +67,9 @@ def of_file(text: str) -> crankwork.Results:
          "test.working_cycle_rate: says the same as crank.speed; keep"),
         # words and units of another key
         (ALONE, 'brake_power = "5 kW"', "test.brake_power: unknown key; did you mean effective_power?"),
+        (ALONE, 'torque = "5 N*m"', "test.torque: unknown key; did you mean effective_torque?"),
+        (ALONE, 'calorific_value = "42 MJ/kg"', "test.calorific_value: unknown key; did you mean fuel_heating_value?"),
+        (ALONE, 'power = "5 kW"', "test.power: unknown key; known here: effective_power, indicated_power"),
         (ALONE, 'fuel_flow = "2 kg/h"', 'test.fuel_flow: unit "kg/h" measures mass rate: write it as fuel_rate; here'),
         (ALONE, 'card_area = "5 mm"', 'test.card_area: unit "mm" measures length: write it as card_length; here'),
         # what nothing follows from

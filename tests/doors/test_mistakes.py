@@ -35,7 +35,7 @@ MISTAKES = {
     "short rod": ('length = "160 mm"', 'length = "40 mm"', "rod.length", "it misses 5 mm; lengthen it"),
     "offset too large": ('bore = "85 mm"', 'bore = "85 mm"\noffset = "125 mm"', "rod.length", "it misses 10 mm"),
     "l/r for r/l": ('length = "160 mm"', "ratio = 4", "rod.ratio", 'write 0.25, or add ratio_definition = "l/r"'),
-    "no clearance": ("compression_ratio = 9.0", 'clearance_volume = "0 cm3"', "cylinder", "gas needs its smallest"),
+    "no clearance": ("compression_ratio = 9.0", "", "cylinder", "gas needs its smallest"),
     "clearance below zero": ("compression_ratio = 9.0", 'clearance_volume = "-1 cm3"', "cylinder.clearance_volume",
                              'write at least "0 cm3"'),
     "compression ratio 1": ("= 9.0", "= 1", "cylinder.compression_ratio", "write a number from 1.001 to 100"),

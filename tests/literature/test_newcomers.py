@@ -714,3 +714,141 @@ cylinder.offset = "{offset} mm"
     out, back = (math.atan2(30.0, math.sqrt(reach**2 - 30.0**2)) for reach in (170.0, 70.0))
     slower = math.pi + back - out
     assert results["time_ratio"] == pytest.approx(slower / (2 * math.pi - slower), rel=1e-12)
+
+
+def orders_of_throws(throws: list[float], spacing: float) -> tuple[list[complex], list[complex]]:
+    """Return sums over cranks of the first and second order, of forces and of their moments about the middle."""
+    stars = [np.exp(1j * order * np.radians(throws)) for order in (1, 2)]
+    places = spacing * (np.arange(len(throws)) - (len(throws) - 1) / 2)
+    return [star.sum() for star in stars], [(star * places).sum() for star in stars]
+
+
+@for_each(("layout", "throws", "order"), [
+    ("inline", [0, 90, 270, 180], "1-4-3-2"),
+    ("inline", [0, 120, 240, 240, 120, 0], "1-4-2-6-3-5"),
+    ("inline", [0, 90, 180], "1-2-3"),
+])  # fmt: skip
+def test_cranks_that_are_given_need_no_firing_order(layout: str, throws: list[float], order: str) -> None:
+    """Forces and moments of the first two orders from the crank star, r/l = 1/4 of a cosine rod by the series."""
+    results = analysed(f"""
+crank = {{ radius = "300 mm", speed = "100 rpm" }}
+rod.length = "1.2 m"
+piston.mass = "450 kg"
+[engine]
+layout = "{layout}"
+cylinders = {len(throws)}
+throws = {[f"{throw} deg" for throw in throws]}
+spacing = "1 m"
+""")
+    assert f"firing order {order} (engine.firing_order)" in assumption_texts(results, "en")
+    first = 450 * 0.3 * (100 * RPM) ** 2
+    # second order of cos q + sqrt(16 - sin2 q): 2^2 (1/4 + 1/4^3/4 + 15/128/4^5 ...)
+    for size, order_number in ((1, 1), (1 / 4 + 1 / 256 + 15 / 128 / 4**5, 2)):
+        sums = [star[order_number - 1] for star in orders_of_throws(throws, 1.0)]
+        for name, star in zip(("force", "moment"), sums, strict=True):
+            told = results.summary.get(f"free_{name}.reciprocating.{order_number}", 0.0)
+            assert told == pytest.approx(first * size * abs(star), rel=3e-5, abs=1e-6)
+
+
+STEAM = """
+crank = { stroke = "500 mm", speed = "120 rpm" }
+rod.length = "1.25 m"
+cylinder = { bore = "300 mm", clearance_volume = "0 cm3" }
+[gas]
+cycle = "360 deg"
+pressures = "absolute"
+ambient = "1 bar"
+[gas.points]
+a = { angle = "0 deg", pressure = "10 bar" }
+c = { stroke = 0.35 }
+r = { angle = "180 deg" }
+e = { angle = "180 deg", pressure = "1.2 bar" }
+f = { angle = "360 deg", pressure = "10 bar" }
+[[gas.pieces]]
+law = "constant"
+points = ["a", "c"]
+[[gas.pieces]]
+law = "polytropic"
+exponent = 1
+points = ["c", "r"]
+[[gas.pieces]]
+law = "constant"
+points = ["e", "f"]
+"""
+
+
+def test_a_steam_engine_without_clearance() -> None:
+    """Mean pressure p (1 + ln R) / R less that of the exhaust."""
+    results = analysed(STEAM)
+    assert results["indicated_mean_pressure"] == pytest.approx(1e6 * 0.35 * (1 - math.log(0.35)) - 1.2e5, rel=1e-12)
+    # a hyperbola to a volume of nothing has no end
+    with pytest.raises(CrankworkError, match="the volume is zero"):
+        analysed(STEAM.replace('law = "constant"\npoints = ["e"', 'law = "polytropic"\nexponent = 1\npoints = ["e"'))
+
+
+@for_each("offset", ["0 mm", "10 mm"])
+def test_points_by_the_stroke_count_from_the_top_of_an_offset_cylinder(offset: str) -> None:
+    """Straight lines over the stroke: 0.3 of it at 8 bar, 4.5 bar on the rest and on the way back."""
+    results = analysed(f"""
+crank = {{ radius = "50 mm", speed = "600 rpm" }}
+rod.length = "150 mm"
+cylinder = {{ bore = "100 mm", clearance_volume = "80 cm3", offset = "{offset}" }}
+[gas]
+cycle = "360 deg"
+pressures = "absolute"
+points.a = {{ stroke = 0, pressure = "8 bar" }}
+points.c = {{ stroke = 0.3, pressure = "8 bar" }}
+points.r = {{ stroke = 1, pressure = "1 bar" }}
+points.f = {{ stroke = 0, pressure = "8 bar" }}
+pieces = [{{ law = "straight", points = ["a", "c", "r"] }}, {{ law = "straight", points = ["r", "f"] }}]
+""")
+    assert results["indicated_mean_pressure"] == pytest.approx((0.3 * 8 + 0.7 * 4.5 - 4.5) * 1e5, rel=1e-9)
+
+
+def test_a_load_of_one_direction_has_no_reversal() -> None:
+    """Gas that presses or does nothing never pulls the rod."""
+    results = analysed("""
+crank = { stroke = "90 mm", speed = "3000 rpm" }
+rod.ratio = 0.25
+cylinder = { bore = "90 mm", compression_ratio = 8 }
+engine = { layout = "inline", cylinders = 1 }
+cycle = { kind = "otto", heat = "1800 kJ/kg" }
+""")
+    assert results["reversal_ratio"] == results["reversal_duration"] == 0.0
+
+
+def test_valves_ask_for_a_cycle_of_one_turn() -> None:
+    with pytest.raises(CrankworkError, match=r'gas\.cycle: is missing; write cycle = "360 deg"'):
+        analysed(STEAM.split("[gas]", maxsplit=1)[0] + '[gas]\nvalves = { suction = "1 bar", discharge = "8 bar" }\n')
+
+
+def test_harmonics_repeat_by_themselves() -> None:
+    """A sine of amplitude A and order k gives 2 A / k between its zeros; work is counted over a turn."""
+    results = analysed("""
+format = 2
+crank.speed = "180 rpm"
+flywheel.fluctuation = 0.01
+torque = { constant = "20 kN*m", harmonics = [{ order = 2, sin = "9500 N*m", cos = "-5700 N*m" }] }
+""")
+    assert results["excess_work"] == pytest.approx(math.hypot(9500, 5700), rel=1e-9)
+    assert results["work_per_cycle"] == pytest.approx(20000 * 2 * math.pi, rel=1e-12)
+
+
+@for_each("throws", ["", 'throws = ["0 deg", "180 deg"]'])
+def test_opposed_cylinders_have_opposed_cranks(throws: str) -> None:
+    """Forces cancel; first-order and centrifugal forces of both throws, 150 mm apart, make a couple."""
+    results = analysed(f"""
+crank = {{ stroke = "120 mm", speed = "740 rpm" }}
+rod = {{ length = "300 mm", mass = "6 kg", small_end_share = 0.3 }}
+piston.mass = "9 kg"
+[engine]
+layout = "boxer"
+cylinders = 2
+strokes = 2
+spacing = "150 mm"
+{throws}
+""")
+    assert not [key for key in results.summary if key.startswith("free_force")]
+    couple = (9 + 6) * 0.06 * (740 * RPM) ** 2 * 0.15
+    assert results["free_moment.residual.1"] == pytest.approx(couple, rel=1e-9)
+    assert not results.notices

@@ -45,8 +45,8 @@ _RESULTS = (
 )
 _WANTED = _Range("speed_fluctuation", 0.0, 0.25, "khurmi_gupta_2005", ("flywheel.percent", "flywheel.fluctuation"))
 _STROKE = _Range("stroke_bore_ratio", 0.3, 5.0, "heywood_1988", ("cylinder.bore",))
-# mass over piston area [kg/m2]
-_PISTON = _Range("mass_per_area.of_piston", 10.0, 3000.0, "kolchin_demidov_2008", ("piston.mass",))
+# mass over piston area, of a piston with its crosshead too [kg/m2]
+_PISTON = _Range("mass_per_area.of_piston", 10.0, 1e4, "kolchin_demidov_2008", ("piston.mass",))
 _ROD = _Range("mass_per_area.of_rod", 10.0, 4000.0, "kolchin_demidov_2008", ("rod.mass", "rod.big_end_mass"))
 # of numbers as they are stated, by their key
 _STATED = {

@@ -149,7 +149,7 @@ def build_layout(
     """Return the layout of any arrangement: W engines, narrow V engines and those without a name.
 
     Throws are angles along the shaft ahead of the first, positive with the rotation [deg]; without them they follow
-    from even firing. Uneven intervals that are not `uneven` on purpose are a notice.
+    from even firing, and an empty order is one that they allow. Uneven intervals not `uneven` on purpose are a notice.
 
     At the crank angle phi of cylinder 1 from its own axis, the crankpin of cylinder k stands at
     phi + axis_1 + pin_k, so its own crank angle is phi - (axis_k - axis_1 - pin_k): the bracket is its firing angle,
@@ -158,11 +158,13 @@ def build_layout(
     seats = _seats(banks)
     if strokes not in (2, 4):
         raise LayoutError("engine.strokes", ErrorMessage("strokes_wrong", count=strokes))
-    order, cycle = checked_order(order, banks.cylinders), 180.0 * strokes
-    if throws is None:
-        pins = _pins_of_even_firing(banks, seats, order, cycle, uneven=uneven)
-    else:
+    cycle = 180.0 * strokes
+    if throws is not None:
         pins = _pins_of_throws(seats, throws)
+        order = checked_order(order or _allowed_order(_dead_centres(seats, pins), cycle), banks.cylinders)
+    else:
+        order = checked_order(order, banks.cylinders)
+        pins = _pins_of_even_firing(banks, seats, order, cycle, uneven=uneven)
     firing = _firing(seats, pins, order, cycle)
     steps = intervals([firing[number - 1] for number in order], cycle)
     if is_even(steps):
@@ -271,6 +273,12 @@ def _or(first: str, other: str) -> ErrorMessage:
     return ErrorMessage("way_or", first=first, other=other)
 
 
+def _allowed_order(dead_centres: Sequence[float], cycle: float) -> Sequence[int]:
+    """Return an even order of a crankshaft, or another one if it has none."""
+    even = even_orders(dead_centres, cycle, limit=1)
+    return even[0] if even else possible_order(dead_centres, cycle)
+
+
 def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> list[float]:
     return [wrap_angle(seat.dead_centre - seats[0].dead_centre - pin) for seat, pin in zip(seats, pins, strict=True)]
 
@@ -278,25 +286,24 @@ def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> l
 def _firing(
     seats: Sequence[CylinderPosition], pins: Sequence[float], order: tuple[int, ...], cycle: float
 ) -> tuple[float, ...]:
-    """Return the firing angles of the order; raise LayoutError with possible orders and a crank for this one."""
+    """Return the firing angles of the order; raise LayoutError with possible orders and a crank for this one.
+
+    Two fire at once where the crankshaft allows nothing else, as with opposed cranks of opposed cylinders.
+    """
     dead_centres = _dead_centres(seats, pins)
-    angles = firing_angles(order, dead_centres, cycle)
+    possible = even_orders(dead_centres, cycle, limit=3) or [possible_order(dead_centres, cycle)]
+    together = firing_angles(possible[0], dead_centres, cycle) is None
+    angles = firing_angles(order, dead_centres, cycle, together=together)
     if angles:
         return angles
-    alternatives = [order_text(allowed) for allowed in even_orders(dead_centres, cycle, limit=3)]
-    possible = possible_order(dead_centres, cycle)
-    if not alternatives and possible:
-        alternatives.append(order_text(possible))
-    values = {"order": order_text(order), "others": ", ".join(alternatives)}
-    if len({seat.throw for seat in seats}) == len(seats):
-        needed = even_angles(order, cycle)
-        pairs = zip(seats, needed, strict=True)
-        throws = {seat.throw: wrap_angle(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
-        quoted = ", ".join(f'"{throws[throw]:.7g} deg"' for throw in sorted(throws))
-        name = "order_refused_both" if alternatives else "order_refused_throws"
-        raise LayoutError("engine.firing_order", ErrorMessage(name, **values, throws=quoted))
-    name = "order_refused_others" if alternatives else "order_refused"
-    raise LayoutError("engine.firing_order", ErrorMessage(name, **values))
+    values = {"order": order_text(order), "others": ", ".join(order_text(allowed) for allowed in possible)}
+    if len({seat.throw for seat in seats}) < len(seats):
+        raise LayoutError("engine.firing_order", ErrorMessage("order_refused_others", **values))
+    needed = even_angles(order, cycle)
+    pairs = zip(seats, needed, strict=True)
+    throws = {seat.throw: wrap_angle(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
+    quoted = ", ".join(f'"{throws[throw]:.7g} deg"' for throw in sorted(throws))
+    raise LayoutError("engine.firing_order", ErrorMessage("order_refused_both", **values, throws=quoted))
 
 
 def _places(

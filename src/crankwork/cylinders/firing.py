@@ -88,11 +88,13 @@ def even_angles(order: Sequence[int], cycle: float) -> tuple[float, ...]:
     return tuple(index[number] * cycle / len(order) for number in sorted(index))
 
 
-def firing_angles(order: Sequence[int], dead_centres: Sequence[float], cycle: float) -> tuple[float, ...] | None:
+def firing_angles(
+    order: Sequence[int], dead_centres: Sequence[float], cycle: float, *, together: bool = False
+) -> tuple[float, ...] | None:
     """Return the firing angles of an order on a given crankshaft, the most even ones, or None if there are none.
 
     By number of the cylinder, from the firing of cylinder 1 [deg]. `cycle`: 720 or 360; in a cycle of 720 a cylinder
-    fires at every other dead centre [deg].
+    fires at every other dead centre [deg]; `together`: whether two may fire at once.
     """
     turns = round(cycle / _TURN)
     best: tuple[float, tuple[float, ...]] | None = None
@@ -100,7 +102,7 @@ def firing_angles(order: Sequence[int], dead_centres: Sequence[float], cycle: fl
     for first in range(len(order), 0, -1) if turns > 1 else (len(order),):
         angles = tuple(dead_centres[number - 1] + _TURN * (place >= first) for place, number in enumerate(order))
         steps = intervals(angles, cycle)
-        if min(steps) > SAME_ANGLE:
+        if min(steps) > (-SAME_ANGLE if together else SAME_ANGLE):
             unevenness = sum(step * step for step in steps)
             if best is None or unevenness < best[0] - SAME_ANGLE:
                 best = unevenness, angles
@@ -167,13 +169,12 @@ def _even_orders(dead_centres: Sequence[float], cycle: float) -> Iterator[tuple[
             yield tuple(order)
 
 
-def possible_order(dead_centres: Sequence[float], cycle: float) -> tuple[int, ...] | None:
-    """Return a firing order that a crankshaft allows, equal intervals or not, or None if two must fire at once.
+def possible_order(dead_centres: Sequence[float], cycle: float) -> tuple[int, ...]:
+    """Return the firing order that a crankshaft allows, equal intervals or not, or in which two fire at once.
 
     It starts with 1; in a cycle of 720 every other cylinder fires in the second turn.
     """
     turns = round(cycle / _TURN)
     ranked = sorted(range(len(dead_centres)), key=lambda index: (dead_centres[index], index))
     angles = {index + 1: dead_centres[index] + _TURN * (rank % turns) for rank, index in enumerate(ranked)}
-    order = tuple(sorted(angles, key=lambda number: angles[number]))
-    return order if order[0] == 1 and firing_angles(order, dead_centres, cycle) else None
+    return tuple(sorted(angles, key=lambda number: angles[number]))

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from crankwork.cylinders.arrangement import StandardOrder, boxer, build_layout, inline, radial, standard_orders, vee
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
-from crankwork.cylinders.firing import LayoutError, LayoutNotice
+from crankwork.cylinders.firing import LayoutError, LayoutNotice, wrap_angle
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.description.build import rod_masses
@@ -30,6 +30,8 @@ J = TypeVar("J")
 _TABLES = ("shaft", "bearings", "balance")
 # of bearings, what any linkage has whose crank turns fully
 _OF_LINKAGE = {"pins", "rays"}
+# throws of two cylinders without a customary order
+_PAIRS = {"inline": None, "V": [0.0], "W": [0.0], "boxer": [0.0, 180.0]}
 
 
 def build_engine(
@@ -101,12 +103,14 @@ def _layout(
     usual = _usual(table, strokes)
     order = [int(number) for number in table["firing_order"] if number]
     is_pair = _is_free_pair(table, strokes, burns=burns)
-    order = order or [1, 2] * is_pair
     if not order and kind != "radial":
-        if usual is None:
-            raise LayoutError("engine.firing_order", _no_order(table, strokes))
-        order = list(usual.order)
-        throws = throws or list(usual.throws)
+        if usual is not None:
+            order, throws = list(usual.order), throws or list(usual.throws)
+        elif throws is None:
+            is_twin = cylinders == 2 and not table["own_throws"]
+            throws = _PAIRS[kind] if is_twin else [0.0] * (cylinders == len(table["bank_angles"]))
+            if not throws:
+                raise LayoutError("engine.firing_order", _no_order(table, strokes))
     options: dict[str, Any] = {
         "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"] or is_pair, "tops": tops,
     }  # fmt: skip
@@ -153,11 +157,12 @@ def _is_free_pair(table: Values, strokes: int, *, burns: bool) -> bool:
 def _usual(table: Values, strokes: int) -> StandardOrder | None:
     """Return the customary engine with these keys."""
     half = (table.degrees("bank_angle") or 0.0) / 2
+    throws = tuple(wrap_angle(throw - table.degrees("throws")[0]) for throw in table.degrees("throws"))
     for order in standard_orders(table["layout"], int(table["cylinders"]), strokes):
         fits = table["layout"] != "V" or (
             order.axes == (-half, half) and order.pin_offset == table.degrees("pin_offset")
         )
-        if fits and table["numbering"] in (None, order.numbering):
+        if fits and throws in ((), order.throws) and table["numbering"] in (None, order.numbering):
             return order
     return None
 

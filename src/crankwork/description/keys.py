@@ -820,6 +820,7 @@ _GAS = TableSpec("gas", {
 })  # fmt: skip
 
 _WARMER = Quantity(("temperature_rise",), 0.0, 2000.0, above=True)
+WATER_HEAT = "4186.8 J/(kg*K)"
 # what a test bed measured, by the quantities that it states
 _TESTED: dict[Any, tuple[str, ...]] = {
     Quantity(("force",), 0.0, 1e9): ("brake_load", "brake_spring_load"),
@@ -857,7 +858,7 @@ TEST = TableSpec("test", {
     "load_fuel_rates": KeySpec(ListOf(Quantity(("mass_rate",), 0.0, 1e6, above=True), fewest=2, most=200),
                                only={"load_powers": ()}, example='["2 kg/h", "4 kg/h", "6 kg/h"]'),
     **{name: KeySpec(kind) for kind, names in _TESTED.items() for name in names},
-    "coolant_heat": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), default="4186.8 J/(kg*K)",
+    "coolant_heat": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), default=WATER_HEAT,
                             only={"coolant_rate": ()}),
     "exhaust_heat": KeySpec(Quantity(("specific_heat",), 1.0, 1e5), default="1005 J/(kg*K)", only={"exhaust_rise": ()}),
     "heat_ratio": KeySpec(Number(1.0, 2.0, above=True), default=1.4, only={"compression_ratio": ()}),

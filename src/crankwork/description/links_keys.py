@@ -37,6 +37,7 @@ from crankwork.description.keys import (
     TORSION,
     TRANSFER_DOCUMENT,
     TURNING_DOCUMENT,
+    WATER_HEAT,
     with_defaults,
 )
 from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, OneForAll, TableSpec
@@ -227,7 +228,7 @@ _OF_STAGES = {
                       only={"heat_capacity": ()}),
     "water_flow": KeySpec(Quantity(("mass_rate",), 0.0, 1e6, above=True), instead_of=("water_rise",),
                       only={"heat_capacity": ()}),
-    "water_heat_capacity": KeySpec(Quantity(("specific_heat",), 1.0, 1e6), default="4187 J/(kg*K)",
+    "water_heat_capacity": KeySpec(Quantity(("specific_heat",), 1.0, 1e6), default=WATER_HEAT,
                                only={"heat_capacity": ()}),
 }  # fmt: skip
 _DELIVERIES = ("flow", "free_flow", "mass_flow")

@@ -368,6 +368,7 @@ def _check_gas(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
             reader.add_error("gas", ErrorMessage("gas_cylinder"))
     elif (
         {cylinder.clearance_volume, cylinder.compression_ratio} == {None}
+        and not (values.outer and "clearance_volume" in values.outer["cylinder"])
         and any(piece and piece.get("law") == "polytropic" for table in _tables(values) for piece in table["pieces"])
         and not reader.has_errors("cylinder.clearance_volume", "cylinder.compression_ratio")
     ):

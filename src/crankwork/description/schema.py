@@ -410,20 +410,20 @@ class TableSpec(NamedTuple):
             meant = f"{path.removesuffix(name)}{latin}"
             reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=meant)
             return
-        # many books call a power, torque or mean pressure at the shaft that of the brake
-        nearest = name.replace("brake", "effective")
-        nearest = nearest if nearest in self.keys else nearest_name(name, tuple(self.keys))
-        tables = {} if isinstance(value, dict) else {key: spec.kind for key, spec in reader.tables.items()}
+        meant = functools.reduce(lambda text, words: text.replace(*words), _OF_BOOKS, name)
+        own = [key for key in self.keys if f"_{key}".endswith((f"_{meant}", f"_{name}"))]
+        nearest = own[0] if len(own) == 1 else "" if own else nearest_name(name, tuple(self.keys))
+        tables = {} if own or isinstance(value, dict) else {key: spec.kind for key, spec in reader.tables.items()}
         others = [f"{key}.{name}" for key, kind in tables.items() if isinstance(kind, TableSpec) and name in kind.keys]
-        if len(others) == 1:
-            reader.add_error(path, ErrorMessage("unknown_key_near", nearest=others[0]), meant=others[0])
+        if 0 < len(others) < _MANY:
+            reader.add_error(path, ErrorMessage("unknown_key_near", nearest=", ".join(others)), meant=others[0])
         elif nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
             reader.add_error(path, ErrorMessage(f"unknown_{what}_near", nearest=nearest), meant=meant)
             # report mistakes inside a misspelt table too
             self.keys[nearest].kind.read(value, path, reader)
         else:
-            reader.add_error(path, ErrorMessage(f"unknown_{what}", known=", ".join(self.keys)))
+            reader.add_error(path, ErrorMessage(f"unknown_{what}", known=", ".join(own or self.keys)))
 
     def _check_there(self, name: str, value: Mapping[str, object], values: Values, prefix: str, reader: Reader) -> None:
         """Report a required key if it and its alternatives are missing."""
@@ -435,7 +435,10 @@ class TableSpec(NamedTuple):
         # what is there tells which alternative is meant
         depended = {other for stated in value if stated in self.keys for other in self.keys[stated].only}
         alternatives = tuple(key for key in alternatives if key in depended) or alternatives
-        advice = tuple(_advice(alternative, self.keys[alternative], prefix) for alternative in alternatives)
+        needs = [self.keys[stated].only.get(name) for stated in value if stated in self.keys]
+        examples = [entry._replace(example=shown(wanted[0])) for wanted in needs if wanted]
+        advice = tuple(_advice(key, self.keys[key], prefix) for key in alternatives)
+        advice = (_advice(name, examples[0], prefix),) if examples else advice
         reader.add_error(f"{prefix}{alternatives[0]}", ErrorMessage("missing", advice=advice))
 
     def schema(self, language: Language, /) -> dict[str, Any]:
@@ -531,6 +534,16 @@ def _applies(entry: KeySpec, language: Language) -> Iterator[str]:
 def no_effect_message(key: str, value: object, wanted: tuple[str, ...]) -> ErrorMessage:
     """Return the message about a key that applies only with other values of another key."""
     return ErrorMessage("only_with", key=key, found=shown(value), needed=tuple(map(shown, wanted[:5])))
+
+
+# words of books for keys: a power, torque or mean pressure at the shaft is that of the brake
+_OF_BOOKS = (
+    ("brake", "effective"), ("calorific", "heating"), ("moment_of_inertia", "inertia"), ("diameter", "bore"),
+    ("swept_volume", "displacement"), ("rpm", "speed"), ("bmep", "effective_mean_pressure"),
+    ("imep", "indicated_mean_pressure"), ("bsfc", "effective_fuel_consumption"),
+)  # fmt: skip
+# as many tables with a key of the name tell nothing
+_MANY = 4
 
 
 def nearest_name(word: str, options: Iterable[str]) -> str:

@@ -130,6 +130,8 @@ def _turning(values: Values, shaft: _Shaft) -> ShaftTorques | None:
     reader, given = shaft.reader, [name for name in _TABLES if name in values]
     periods = {name: _period(values[name], shaft) for name in given}
     known = [period for period in periods.values() if period is not None]
+    if not known and {form for name in given for form in FORMS if form in values[name]} == {"harmonics"}:
+        known = [math.tau]
     if not known:
         for name in given:
             reader.add_error(

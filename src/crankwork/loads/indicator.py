@@ -238,10 +238,15 @@ def solve_diagram(
     )
 
 
-def counts_from_top(points: Mapping[str, DiagramPoint], pieces: Sequence[Piece]) -> bool:
-    """Return whether a diagram is a table over the stroke, which begins where the volume is least."""
+def counts_from_top(points: Mapping[str, DiagramPoint], pieces: Sequence[Piece], *, by_law: bool = False) -> bool:
+    """Return whether a diagram begins where the volume is least: a table over the stroke, or points without angles.
+
+    `by_law`: whether the volume may rest there, so that points say where they begin.
+    """
     first = points.get(pieces[0].points[0]) if pieces else None
-    return first is not None and first.stroke == 0.0 and bool(first.inputs)
+    if first is None or first.stroke != 0.0:
+        return False
+    return bool(first.inputs) or not (by_law or any(point.angle is not None for point in points.values()))
 
 
 class _Solver:
