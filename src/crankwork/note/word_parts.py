@@ -461,7 +461,7 @@ def omml_box(box: Box) -> str:  # noqa: C901, PLR0912 - one case per kind of box
         case Upright(text):
             return _math_run(text, "text")
         case Digits(text):
-            return _math_run(text, "text")
+            return _math_run(text, "upright")
         case Sign(text, "fence"):
             return _math_run(text, "literal")
         case Sign(text, _):
