@@ -122,14 +122,17 @@ def _on_journal(material: Material) -> Iterator[Block]:
     shares = [-held[axis][k] / (forces[axis][k] or 1.0) for k, axis in enumerate(along)]
     kinds = [part if part.partition(".")[2] else f"rod.{part}" for part in parts]
     names = [words.phrase(f"acts_{kind}", number=number) for kind, _, number in (kind.partition(".") for kind in kinds)]
+    shown = material.shown(axes[0], np.array(held)).tolist()
+    count = words.decimals([value for each in shown for value in each], digits=4)
     columns = [
         [*names, words.column("total")],
         [*(words.number(share, digits=4) for share in shares), ""],
-        *([*words.column_texts(material.shown(axis, np.array(each)).tolist(), digits=4), ""]
-          for axis, each in zip(axes, forces, strict=True)),
-        *(words.column_texts(material.shown(axis, np.array(each)).tolist(), digits=4)
-          for axis, each in zip(axes, held, strict=True)),
-    ]  # fmt: skip
+        *(
+            [*words.column_texts(each, decimals=count), ""]
+            for each in material.shown(axes[0], np.array(forces)).tolist()
+        ),
+        *(words.column_texts(each, decimals=count) for each in shown),
+    ]
     share, unit = words.symbol("journal_share"), words.unit(axes[0])
     of_axes = [words.symbol(axis) for axis in axes]
     titles: list[str | Runs] = ["row", (Math(share),), *(words.titled(axis) for axis in axes)]
