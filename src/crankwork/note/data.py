@@ -38,6 +38,7 @@ from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import SUBJECTS
+from crankwork.quantities.quantity import number_of
 from crankwork.report.display import key_unit, link_label
 from crankwork.report.drawing import crank_gear_scheme
 from crankwork.report.sketch import Length
@@ -338,7 +339,7 @@ def _chambers(material: Material) -> Iterator[Block]:
     yield words.table("chambers", ("chamber", "faces", *sizes, "gas"), rows, "llrrrl")
     for charge in stated_charges(material.machine):
         dead = "; ".join(_amount(volume, temperature, words) for volume, temperature in charge.dead_volumes) or "–"
-        parts = {"name": charge.name, "chambers": ", ".join(charge.chambers), "dead": dead}
+        parts = {"name": charge.name, "chambers": ", ".join(map(number_of, charge.chambers)), "dead": dead}
         if charge.exponent is None:
             yield words.paragraph("charge_given", **parts)
         else:
@@ -348,7 +349,7 @@ def _chambers(material: Material) -> Iterator[Block]:
 def _of_chamber(chamber: ChamberInput, material: Material) -> Iterator[str]:
     """Yield name, faces, areas, clearance, pressure around, and what gives the pressure of a chamber."""
     words, results = material.words, material.results
-    yield chamber.name
+    yield words.part(chamber.name)
     yield ", ".join(f"{words.part(slider)} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
     keys = [f"piston_area.{owner}" for owner in chamber.owners]
     yield "; ".join(words.shown(key, results.value(key), digits=material.digits) for key in keys)

@@ -46,6 +46,7 @@ from crankwork.note.wording import Words, in_display_unit
 from crankwork.preparation.prepared import Notice
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.key import key_of
+from crankwork.quantities.quantity import number_of
 from crankwork.report.display import FILE_KEYS, displayed
 from crankwork.units import UNITS
 
@@ -399,7 +400,9 @@ def _assumed(material: Material) -> set[str]:
 def _works(material: Material) -> Iterator[Block]:
     """Yield the table of the single values of every chamber."""
     words = material.words
-    rows = [(chamber.name, *_values(chamber.name, material)) for chamber in stated_chambers(material.machine)]
+    rows = [
+        (number_of(chamber.name), *_values(chamber.name, material)) for chamber in stated_chambers(material.machine)
+    ]
     titles = [words.titled(key, QUANTITIES[base_key(key)].unit) for key in _SINGLE]
     yield words.table("gas_work", ("chamber", *titles), rows, "l" + "r" * len(_SINGLE))
 

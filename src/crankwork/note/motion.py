@@ -13,6 +13,7 @@ from crankwork.mechanism.driver import Cylinder, rod_name
 from crankwork.mechanism.dyads import Chain
 from crankwork.mechanism.joints import Pin, group_links, joints, pivots_of
 from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.structure import ROMAN
 from crankwork.note.captions import printed_unit
 from crankwork.note.closing import errors
 from crankwork.note.document import Block, Citation, Reference, Run, Runs, Table
@@ -56,7 +57,6 @@ _COORDINATE = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
     "driver_angular_acceleration", "driver_jerk", "driver_angular_jerk",
 )  # fmt: skip
-_ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 _SOURCE = "norton_2012, ch. 4"
 _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
 _ANGLES = ("transmission_angle", "pressure_angle")
@@ -162,13 +162,13 @@ def _structure(material: Material) -> Iterator[Block]:
             ", ".join(
                 f"{numbers[name]} ({link_label(name, words.language)})" for name in group.members if name in numbers
             ),
-            _ROMAN[group.number],
+            ROMAN[group.number],
             words.kind(kinds.get(frozenset(group.members), "")),
         )
         for number, group in enumerate(analysed.groups, start=1)
     ]
     yield words.table("groups", ("group", "members", "class", "species"), rows, "clcc")
-    yield words.paragraph("formula", formula=analysed.formula.replace("->", "→"), number=_ROMAN[analysed.number])
+    yield words.paragraph("formula", formula=analysed.formula.replace("->", "→"), number=ROMAN[analysed.number])
     kind = four_bar_type(material.machine)
     if kind:
         yield words.paragraph("grashof", type=words.kind(kind))

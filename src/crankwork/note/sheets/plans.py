@@ -16,7 +16,7 @@ from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
 from crankwork.analysis.vector_polygons import accelerations, driver_rates, position_step, velocities
 from crankwork.locale import decimal, translate
 from crankwork.locale.numbers import number, unit_name
-from crankwork.mechanism.structure import Structure, structure
+from crankwork.mechanism.structure import ROMAN, Structure, structure
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.sheet import Column, numbers, table, text_block
 from crankwork.note.wording import named
@@ -34,7 +34,6 @@ from crankwork.show.scene import Drawing
 _DENSE_STEP = 1.0
 # which positions get an acceleration plan
 _ACCELERATIONS = (1, 5, 9)
-_CLASSES = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 # points whose plans are compared, and what a reading on paper is rounded to [mm]
 _MOST_COMPARED, _READING = 3, 1
 # of the largest velocity or acceleration of a table, what is none
@@ -147,7 +146,7 @@ def structure_block(data: Positions, analysed: Structure) -> Drawing:
     entries = [
         f"${symbol('mobility', language)}$ = 3$n$ − 2$p_5$ − $p_4$ = {sum_} = {analysed.mobility}",
         f"{analysed.formula.replace('->', '→')}",
-        f"{translate('columns.class', language)}: {_CLASSES[min(analysed.number, len(_CLASSES) - 1)]}",
+        f"{translate('columns.class', language)}: {ROMAN[min(analysed.number, len(ROMAN) - 1)]}",
     ]
     speed = results.solved.speed
     if speed and not data.style.period:
