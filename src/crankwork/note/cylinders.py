@@ -116,6 +116,9 @@ def _on_journal(material: Material) -> Iterator[Block]:
     owner = f"main_journal.{key_of(loads[min(1, len(loads) - 1)]).owner}"
     axes = ("bearing_force_x", "bearing_force_y")
     parts = [key.partition(f".{owner}.")[2] for key in values if key.startswith(f"{axes[0]}.{owner}.")]
+    if not parts:
+        # a single throw adds nothing up
+        return
     forces = [[values.get(f"{axis}.{part}", 0.0) for part in parts] for axis in axes]
     held = [[*(values[f"{axis}.{owner}.{part}"] for part in parts), values[f"{axis}.{owner}"]] for axis in axes]
     along = [max(range(len(axes)), key=lambda axis: abs(forces[axis][k])) for k in range(len(parts))]

@@ -438,7 +438,7 @@ def _gear_ratios(material: Material) -> Iterator[Block]:
     if size is None:
         yield words.paragraph("motor_beyond", source=Citation(SERIES_SOURCE))
     else:
-        yield words.paragraph("motor_size", source=Citation(SERIES_SOURCE), size=words.amount(size, "kW"))
+        yield words.paragraph("motor_size", source=Citation(SERIES_SOURCE), size=words.amount(size, "kW", digits=4))
     speeds = {float(key_of(key).owner): value for key, value in summary.items() if key.startswith("motor_ratio.")}
     rows = [
         tuple(words.number(value, digits=4) for value in (speed, speed * (1 - slip), ratio))

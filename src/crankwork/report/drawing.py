@@ -46,6 +46,7 @@ from crankwork.show.scene import (
     text_width,
 )
 from crankwork.show.theme import Theme
+from crankwork.units import from_si, shown_unit
 
 _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 10.5, 4.5, 80.0
 # tints of the key to the pressure, and how wide each is [mm]
@@ -252,7 +253,9 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     """
     (wide, tall), middle = sketch.high - sketch.low, (sketch.low + sketch.high) / 2
     width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(path, language)
-    bar, below, foot = _scale_bar(sketch.scale / 1e3, 0.3 * width, _MARGIN, "mm", language), list[Part](), _FOOT
+    of_lengths = shown_unit("mm")
+    bar = _scale_bar(sketch.scale / float(from_si(1.0, of_lengths)), 0.3 * width, _MARGIN, of_lengths, language)
+    below, foot = list[Part](), _FOOT
     if pressures:
         bar = [*_pressure_key(pressures, foot + _MARGIN + _ROW - _FOOT, language), *bar]
         foot += _ROW
