@@ -116,9 +116,6 @@ def _on_journal(material: Material) -> Iterator[Block]:
     owner = f"main_journal.{key_of(loads[min(1, len(loads) - 1)]).owner}"
     axes = ("bearing_force_x", "bearing_force_y")
     parts = [key.partition(f".{owner}.")[2] for key in values if key.startswith(f"{axes[0]}.{owner}.")]
-    if not parts:
-        # a single throw adds nothing up
-        return
     forces = [[values.get(f"{axis}.{part}", 0.0) for part in parts] for axis in axes]
     held = [[*(values[f"{axis}.{owner}.{part}"] for part in parts), values[f"{axis}.{owner}"]] for axis in axes]
     along = [max(range(len(axes)), key=lambda axis: abs(forces[axis][k])) for k in range(len(parts))]
@@ -142,8 +139,9 @@ def _on_journal(material: Material) -> Iterator[Block]:
     titles += [("−", Math(share), " ", Math(symbol), f", {unit}") for symbol in of_axes]
     *rows, last = zip(*columns, strict=True)
     number = key_of(owner).owner
-    yield words.paragraph("on_journal", number=number, table=Reference("t:on_journal"))
-    yield words.table("on_journal", titles, [*rows, tuple(map(Strong, last))], "lrrrrr", "t:on_journal")
+    if rows:
+        yield words.paragraph("on_journal", number=number, table=Reference("t:on_journal"))
+        yield words.table("on_journal", titles, [*rows, tuple(map(Strong, last))], "lrrrrr", "t:on_journal")
     sums = [line for line in material.lines("bearings") if line.key in (f"{axis}.{owner}" for axis in axes)]
     for symbol, line, value in zip(of_axes, sums, (column[-1] for column in columns[-2:]), strict=True):
         total = row(symbol_box(words.symbol(line.key)), EQUALS, MINUS, Sign("Σ"), symbol_box(share), SPACE,
