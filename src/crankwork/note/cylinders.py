@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -155,10 +155,6 @@ def _has_pin(material: Material) -> bool:
     return material.has_piston and bool(_columns(material))
 
 
-def _of_crankpin(material: Material) -> Iterable[str]:
-    return [key for key in _columns(material) if key.startswith("crankpin_")]
-
-
 def _group(name: str) -> Keys:
     """Return what gives the keys of a table of the results."""
     return lambda material: material.results.groups.get(name, ())
@@ -282,6 +278,8 @@ def _drawn_orders(material: Material) -> Iterator[Block]:
     return material.presented([_by_order(material)], figures)
 
 
+_CRANKPIN = Over("crankpin", lambda material: [key for key in _columns(material) if key.startswith("crankpin_")])
+
 SECTIONS = (
     # polar, unrolled and wear in one
     Section("crankpin", (
@@ -293,7 +291,7 @@ SECTIONS = (
         When(full, (Head("wear", 2), *_WEAR)),
     ), _has_pin),
     Section("polar", (
-        Head("crankpin"), *_PIN, Shown(("crankpin_polar",), (Over("crankpin", _of_crankpin),)),
+        Head("crankpin"), *_PIN, Shown(("crankpin_polar",), (_CRANKPIN,)),
     ), _has_pin),
     Section("unrolled", (Head("unrolled"), _STATED, Shown(("crankpin_load",), (_LOADS,))), _has_pin),
     Section("big_end", (

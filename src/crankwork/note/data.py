@@ -11,7 +11,7 @@ from crankwork.analysis.input_loads import ChamberInput, LoadInput, stated_chamb
 from crankwork.formula.traced_value import Input, Node, in_order
 from crankwork.locale import translate
 from crankwork.machine import Bearings, Engine, TransferTable
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
 from crankwork.mechanism.linkage import Member
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import links_of
@@ -412,7 +412,9 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
     times = [segment.share * law.period for segment in law.segments]
     rows = [
         (
-            str(number), _moves(segment, words), *(words.shown(key, place) for place in ends),
+            str(number),
+            words.kind(segment.kind) if isinstance(segment.kind, str) else translate("memory.own_law", words.language),
+            *(words.shown(key, place) for place in ends),
             words.number(sum(times[: number - 1])), words.number(times[number - 1]),
         )
         for number, (segment, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
@@ -420,10 +422,6 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
     ends = ((words.column(name, key_unit(key)),) for name in ("law_from", "law_to"))
     times_of = (words.titled(title) for title in ("start_time", "segment_time"))
     return words.table("law", ("number", "motion_law", *ends, *times_of), rows, "clrrrr", "t:law")
-
-
-def _moves(segment: Segment, words: Words) -> str:
-    return words.kind(segment.kind) if isinstance(segment.kind, str) else translate("memory.own_law", words.language)
 
 
 def _table(material: Material) -> Iterator[Block]:

@@ -334,7 +334,8 @@ def line_parts(
     elif isinstance(step, SumLine) and step.terms:
         names = [symbols.get(term.key) or value_symbol(term.key, language) for term in step.terms]
         numbers = [number(term.value, language, digits=digits) for term in step.terms]
-        parts = [" + ".join(names), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
+        fenced = (f"({printed})" if printed.startswith("−") else printed for printed in numbers[1:])
+        parts = [" + ".join(names), " + ".join([numbers[0], *fenced])]
     while parts and parts[-1] == number(step.value, language, digits=least):
         # the same number follows with its unit
         parts.pop()
@@ -349,10 +350,6 @@ def _angles(step: FormulaLine, language: Language) -> dict[str, str]:
         return {}
     degrees = whole_degrees(tree.operands[0], step.values)
     return {} if degrees is None else {tree.operands[0].name: f"{number(degrees, language)}°"}
-
-
-def _fenced(printed: str) -> str:
-    return f"({printed})" if printed.startswith("−") else printed
 
 
 def by_area(step: Line, area: float) -> tuple[Line, Values]:

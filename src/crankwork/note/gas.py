@@ -415,10 +415,6 @@ def _values(name: str, material: Material) -> Iterator[str]:
         yield words.number(in_display_unit(key.removesuffix("_max"), [value])[0], digits=material.digits)
 
 
-def _is_absolute(material: Material) -> bool:
-    return material.machine.gas is not None and material.machine.gas.is_absolute
-
-
 def two_bases(material: Material) -> Notice | None:
     """Return the notice that diagram and heat calculation give different powers, where a note can say why."""
     known = {"indicated_mean_pressure.cycle", "filling_factor.diagram"} <= material.summary.keys()
@@ -448,7 +444,8 @@ SECTIONS = (
     Section("cycle", (Head("cycle"), _cycle), lambda material: bool(material.cycle)),
     Section("indicator", (
         Head("indicator"), _measured, Lines("gas", intro="volumes"), When(full, (_polytropes,)),
-        When(_is_absolute, (Text("absolute"),)),
+        When(lambda material: material.machine.gas is not None and material.machine.gas.is_absolute,
+             (Text("absolute"),)),
         Shown(("indicator", "pressure"), (_points, in_full(_laws))),
         Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"),
         _bases, _OF_DELIVERY,

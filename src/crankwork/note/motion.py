@@ -111,10 +111,6 @@ def _transfer(material: Material) -> Iterator[Block]:
     return tabulated(material, "transfer", columns, "transfer")
 
 
-def _centres(material: Material) -> Iterable[str]:
-    return material.of_axes("instant_centre")
-
-
 _MOST = ("piston_velocity_max_angle", "piston_velocity_max", "piston_velocity_min")
 _OF_RODS = Over("rod", _ROD, one_turn=True)
 _EXACT_ORDERS = When(
@@ -127,7 +123,7 @@ _REPEATS, _EXTREMES = Text("repeats"), Lines("extremes", intro="extremes")
 # where links turn about that have no fixed pivot
 _INSTANT_CENTRES = When(lambda material: material.full and bool(material.of_axes("instant_centre")), (
     Head("instant_centres", 2), Text("instant_centres", {"source": Citation(_CENTRES)}), At("instant_centres"),
-    Lines("instant_centres"), Places("instant_centres", _centres),
+    Lines("instant_centres"), Places("instant_centres", lambda material: material.of_axes("instant_centre")),
 ))  # fmt: skip
 _OF_PIN = {"along": "x₁ + ξ₁ cos φ₁ − η₁ sin φ₁ = x₂ + ξ₂ cos φ₂ − η₂ sin φ₂",
            "across": "y₁ + ξ₁ sin φ₁ + η₁ cos φ₁ = y₂ + ξ₂ sin φ₂ + η₂ cos φ₂"}  # fmt: skip

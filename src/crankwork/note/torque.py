@@ -171,13 +171,10 @@ def _at_all(key: str) -> Callable[[Material], Iterator[Block]]:
     def equations(material: Material) -> Iterator[Block]:
         results, shown = material.results, material.words.symbol(key)
         for place, degrees in enumerate(results.grid.degrees.tolist(), start=1):
-            yield Equation(results.moment(degrees).step(results.trace[key]), symbol=_numbered(shown, place))
+            symbol = f"{shown}{',' if '_' in shown else '_'}{place}"
+            yield Equation(results.moment(degrees).step(results.trace[key]), symbol=symbol)
 
     return equations
-
-
-def _numbered(symbol: str, position: int) -> str:
-    return f"{symbol}{',' if '_' in symbol else '_'}{position}"
 
 
 def _cylinders(count: Callable[[int], bool]) -> Condition:

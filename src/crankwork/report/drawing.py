@@ -110,7 +110,8 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
             lengths, has_room=has_room,
         )  # fmt: skip
         keys = _acting(path.mechanism, shape, _named_forces(columns, language), language)
-        about = [*_lengths(path.mechanism, None, language), *_members(shape, language), time]
+        named = (f"{number} – {link_label(name, language)}" for number, name in numbered(shape))
+        about = [*_lengths(path.mechanism, None, language), *named, time]
         tinted = [item.name.removeprefix("gas.") for item in sketch.parts if item.name.startswith("gas.")]
         pressures = [columns[f"gas_pressure.{name}"] for name in tinted if f"gas_pressure.{name}" in columns]
     return _film(sketch, path, seconds, known, "; ".join(about), keys, pressures, language, has_room=has_room)
@@ -397,11 +398,6 @@ def _lengths(mechanism: Mechanism, machine: Machine | None, language: Language) 
         f"{label(key, language)} {number(displayed(key, value), language)} {unit_name(key_unit(key), language)}"
         for key, value in lengths
     ]
-
-
-def _members(shape: Skeleton, language: Language) -> list[str]:
-    """Return the names of the numbered links."""
-    return [f"{number} – {link_label(name, language)}" for number, name in numbered(shape)]
 
 
 def _time(path: AnimationPath, seconds: float, language: Language) -> str:
