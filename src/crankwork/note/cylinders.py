@@ -13,7 +13,7 @@ from crankwork.formula.expression import Operation, Symbol
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, in_order
 from crankwork.mechanism.mechanism import Crank
 from crankwork.note import layout
-from crankwork.note.document import Block, Citation, Equation, Math, Reference, Runs, Strong, Table
+from crankwork.note.document import Block, Citation, Equation, Math, Reference, Runs, Strong
 from crankwork.note.equations import value_box
 from crankwork.note.layout import EQUALS, MINUS, SPACE, Digits, PrintedEquation, Sign, Upright, row
 from crankwork.note.lines import first_articulated
@@ -263,19 +263,15 @@ def _worked(material: Material) -> list[Block]:
     return material.equations("balance", *(kind for kind in _OF_ORDERS if kind not in left))
 
 
-def _by_order(material: Material) -> Table | None:
-    """Return the free forces of each order, and the moments where there are any."""
-    return listing_table(material, "balance", "balance" if material.has_free_moments else "balance_forces")
-
-
 def _drawn_orders(material: Material) -> Iterator[Block]:
     """Yield the free forces, drawn where those of several orders are seen."""
     sizes = [np.abs(np.nan_to_num(values)) for key, values in material.results.listings["balance"].columns.items()
              if key in ("free_force", "free_moment")]  # fmt: skip
     # what counterweights leave may be all of it
     seen = sum(len(np.unique(np.round(size[size > _SEEN * size.max()] / size.max(), 3))) for size in sizes)
+    table = listing_table(material, "balance", "balance" if material.has_free_moments else "balance_forces")
     figures = ("balance_orders", "balance_ellipses") if material.full or seen > 1 else ()
-    return material.presented([_by_order(material)], figures)
+    return material.presented([table], figures)
 
 
 _CRANKPIN = Over("crankpin", lambda material: [key for key in _columns(material) if key.startswith("crankpin_")])

@@ -370,7 +370,8 @@ def typst_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
             return f"lr({marks[0]} {typst_box(inside)} {marks[1]})"
         case Script(base, below, above):
             feet = f", b: {typst_box(below)}" if below else ""
-            return f"attach({_base(base)}{feet}{f', t: {typst_box(above)}' if above else ''})"
+            letter = isinstance(base, Upright) and len(base.text) > 1 and f"op({typst_string(base.text)})"
+            return f"attach({letter or typst_box(base)}{feet}{f', t: {typst_box(above)}' if above else ''})"
         case Apply(name, argument):
             return f"{_name(name)} {typst_box(argument)}"
         case Marked(inside, mark):
@@ -397,10 +398,6 @@ def _upright(text: str) -> str:
     if text == "d":
         return "upright(d)"
     return _PRIMES.get(text) or typst_string(text)
-
-
-def _base(base: Box) -> str:
-    return f"op({typst_string(base.text)})" if isinstance(base, Upright) and len(base.text) > 1 else typst_box(base)
 
 
 def _name(name: Box) -> str:

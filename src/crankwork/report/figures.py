@@ -448,10 +448,6 @@ def _compared(machine: Drawn) -> Drawing:
     return comparison_figure(results, results.compared, machine.language, per_area=machine.per_area)
 
 
-def _has_compared(machine: Drawn) -> bool:
-    return machine.results.compared is not None and bool(drawn_keys(machine.results.compared))
-
-
 def _own(machine: Drawn, name: str, keys: Sequence[str]) -> Drawing:
     """Return a figure that a file asks for: columns of one unit in one panel."""
     reached = machine.reached
@@ -551,7 +547,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("speed", speed_curve, _speed),
     Construction("wittenbauer", wittenbauer, lambda machine: (_drawn(machine) or _engine(machine))
                  and has_energy_mass_diagram(machine)),
-    Construction("comparison", _compared, _has_compared),
+    Construction("comparison", _compared, lambda machine: machine.results.compared is not None
+                 and bool(drawn_keys(machine.results.compared))),
 )  # fmt: skip
 
 

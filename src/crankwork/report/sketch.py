@@ -228,16 +228,13 @@ def dimension_lines(
     busy, items = np.vstack([obstacles, *points.values(), *links]), list[Item]()
     for length in lengths:
         start, end = points[length.start], points[length.end]
-        if np.hypot(*_along(length, start, end)) < _SHORTEST_LINE:
+        along = end - start if length.axis is None else (end - start) * np.eye(2)[length.axis]
+        if np.hypot(*along) < _SHORTEST_LINE:
             continue
         p, q = min(_choices(length, start, end, busy), key=lambda ends: _crowding(ends[0], ends[1], busy))
         busy = np.vstack([busy, p + _PLACES * (q - p)])
         items += _drawn(length, (start, end), (p, q))
     return items, busy
-
-
-def _along(length: Length, start: Array, end: Array) -> Array:
-    return end - start if length.axis is None else (end - start) * np.eye(2)[length.axis]
 
 
 def _choices(length: Length, start: Array, end: Array, busy: Array) -> Iterator[tuple[Array, Array]]:

@@ -242,8 +242,11 @@ def compared_table(data: Positions, scales: Scales, rows: Sequence[int]) -> Draw
     shown: list[Column] = []
     for sign, key, unit in (("v", "point_velocity", "m/s"), ("a", "point_acceleration", "m/s2")):
         exact = [float(data.columns[f"{key}.{name}"][position]) for position, name in lines]
-        ends = [_read(value, scales.of(sign, position)) for value, (position, _) in zip(exact, lines, strict=True)]
-        plans = [end * scales.of(sign, position) for end, (position, _) in zip(ends, lines, strict=True)]
+        known = [scales.of(sign, position) for position, _ in lines]
+        # as they are read on paper [mm]
+        ends = [round(value / scale, _READING) if math.isfinite(scale) else 0.0
+                for value, scale in zip(exact, known, strict=True)]  # fmt: skip
+        plans = [end * scale for end, scale in zip(ends, known, strict=True)]
         # values that are very small against the others have no relative difference
         least = _ZERO_TOLERANCE * max(exact, default=0.0)
         off = [100 * (drawn - calculated) / calculated if calculated > least else math.nan
@@ -266,8 +269,3 @@ def _share(value: float, language: Language) -> str:
     """Return a share to a hundredth of a percent, as lengths are read to a tenth of a millimetre."""
     shown = f"{value:.2f}".replace("-0.00", "0.00")
     return decimal(shown, language).replace("-", "−") if math.isfinite(value) else "–"
-
-
-def _read(value: float, scale: float) -> float:
-    """Return the length of a vector as it is read on paper. [mm]"""
-    return round(value / scale, _READING) if scale == scale else 0.0  # noqa: PLR0124 - not a number
