@@ -316,6 +316,9 @@ def _points(material: Material) -> Table | None:
         numbers = np.array([pressure.node.operands[0].value for _, pressure in listed])
         columns.insert(1, quantity_column(material, "travel_share", shares))
         columns.insert(4, quantity_column(material, "listed_pressure", numbers))
+        if not material.full:
+            # what is given, so narrow that its halves stand side by side
+            return folded(column_table("points", columns[:3] + columns[4:], words))
     if gas is not None and gas.is_absolute:
         columns.append(quantity_column(material, "gas_pressure", pressures - gas.ambient))
     return column_table("points", columns, words)
