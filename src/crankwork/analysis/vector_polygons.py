@@ -85,7 +85,7 @@ def positions(machine: Machine) -> Array:
 def worked_position(results: Results) -> float:
     """Return the position of the worked example, at which plans are drawn. [deg]
 
-    With loads, that of the largest torque at which no turning link stands still; with a law, one at which the driver
+    With loads, that of the largest torque at which every link turns; with a law, one at which the driver
     moves, and if possible accelerates; else the first after the start at which every link turns, if there is one.
     """
     machine = results.machine
@@ -99,10 +99,10 @@ def worked_position(results: Results) -> float:
         # in a change point forces may not be determined
         known = np.all([np.isfinite(value) for key, value in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
         turning = [np.abs(value) for key, value in columns.items() if key.startswith(_TURNING)]
-        # half of the lines of a link that stands still are zeros
-        is_still = np.any([item < 1e-3 * np.max(item) for item in turning], axis=0)
+        # the lines of a link that hardly turns lie on each other
+        is_slow = np.any([item < _SLOW * np.max(item) for item in turning], axis=0)
         worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
-        return float(angles[np.argmax(np.where(is_still, worth - worth.max(), worth))])
+        return float(angles[np.argmax(np.where(is_slow, worth - worth.max(), worth))])
     moving = [np.abs(value) for key, value in results.columns_at(angles).items() if key.startswith(_TURNING)]
     # a link that never turns has rates of rounding alone
     least = 1e-9 * max((float(np.max(item)) for item in moving), default=0.0)

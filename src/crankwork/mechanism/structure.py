@@ -16,7 +16,7 @@ from crankwork.mechanism.linkage import GROUND, Linkage, Member
 
 # largest number of sets of members examined for one group
 _MAX_CANDIDATES = 20_000
-_ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
+ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Structure:
         first, second = ({GROUND: "0", "": "1", **numbers}[name] for name in self.drive)
         inside = {**numbers, self.driven: f"{first}+{second}"} if self.driven else numbers
         groups = (
-            f"{_ROMAN[group.number]}({','.join(sorted((inside[name] for name in group.members), key=_first_number))})"
+            f"{ROMAN[group.number]}({','.join(sorted((inside[name] for name in group.members), key=_first_number))})"
             for group in self.groups
         )
         return " -> ".join([f"I({first},{second})", *groups])

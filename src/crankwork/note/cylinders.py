@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from crankwork.formula.expression import Operation, Symbol
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, in_order
 from crankwork.mechanism.mechanism import Crank
 from crankwork.note import layout
-from crankwork.note.document import Block, Citation, Equation, Math, Reference, Runs, Strong, Table
+from crankwork.note.document import Block, Citation, Equation, Math, Reference, Runs, Strong
 from crankwork.note.equations import value_box
 from crankwork.note.layout import EQUALS, MINUS, SPACE, Digits, PrintedEquation, Sign, Upright, row
 from crankwork.note.lines import first_articulated
@@ -122,22 +122,26 @@ def _on_journal(material: Material) -> Iterator[Block]:
     shares = [-held[axis][k] / (forces[axis][k] or 1.0) for k, axis in enumerate(along)]
     kinds = [part if part.partition(".")[2] else f"rod.{part}" for part in parts]
     names = [words.phrase(f"acts_{kind}", number=number) for kind, _, number in (kind.partition(".") for kind in kinds)]
+    shown = material.shown(axes[0], np.array(held)).tolist()
+    count = words.decimals([value for each in shown for value in each], digits=4)
     columns = [
         [*names, words.column("total")],
         [*(words.number(share, digits=4) for share in shares), ""],
-        *([*words.column_texts(material.shown(axis, np.array(each)).tolist(), digits=4), ""]
-          for axis, each in zip(axes, forces, strict=True)),
-        *(words.column_texts(material.shown(axis, np.array(each)).tolist(), digits=4)
-          for axis, each in zip(axes, held, strict=True)),
-    ]  # fmt: skip
+        *(
+            [*words.column_texts(each, decimals=count), ""]
+            for each in material.shown(axes[0], np.array(forces)).tolist()
+        ),
+        *(words.column_texts(each, decimals=count) for each in shown),
+    ]
     share, unit = words.symbol("journal_share"), words.unit(axes[0])
     of_axes = [words.symbol(axis) for axis in axes]
     titles: list[str | Runs] = ["row", (Math(share),), *(words.titled(axis) for axis in axes)]
     titles += [("−", Math(share), " ", Math(symbol), f", {unit}") for symbol in of_axes]
     *rows, last = zip(*columns, strict=True)
     number = key_of(owner).owner
-    yield words.paragraph("on_journal", number=number, table=Reference("t:on_journal"))
-    yield words.table("on_journal", titles, [*rows, tuple(map(Strong, last))], "lrrrrr", "t:on_journal")
+    if rows:
+        yield words.paragraph("on_journal", number=number, table=Reference("t:on_journal"))
+        yield words.table("on_journal", titles, [*rows, tuple(map(Strong, last))], "lrrrrr", "t:on_journal")
     sums = [line for line in material.lines("bearings") if line.key in (f"{axis}.{owner}" for axis in axes)]
     for symbol, line, value in zip(of_axes, sums, (column[-1] for column in columns[-2:]), strict=True):
         total = row(symbol_box(words.symbol(line.key)), EQUALS, MINUS, Sign("Σ"), symbol_box(share), SPACE,
@@ -149,10 +153,6 @@ def _on_journal(material: Material) -> Iterator[Block]:
 
 def _has_pin(material: Material) -> bool:
     return material.has_piston and bool(_columns(material))
-
-
-def _of_crankpin(material: Material) -> Iterable[str]:
-    return [key for key in _columns(material) if key.startswith("crankpin_")]
 
 
 def _group(name: str) -> Keys:
@@ -263,20 +263,18 @@ def _worked(material: Material) -> list[Block]:
     return material.equations("balance", *(kind for kind in _OF_ORDERS if kind not in left))
 
 
-def _by_order(material: Material) -> Table | None:
-    """Return the free forces of each order, and the moments where there are any."""
-    return listing_table(material, "balance", "balance" if material.has_free_moments else "balance_forces")
-
-
 def _drawn_orders(material: Material) -> Iterator[Block]:
     """Yield the free forces, drawn where those of several orders are seen."""
     sizes = [np.abs(np.nan_to_num(values)) for key, values in material.results.listings["balance"].columns.items()
              if key in ("free_force", "free_moment")]  # fmt: skip
     # what counterweights leave may be all of it
     seen = sum(len(np.unique(np.round(size[size > _SEEN * size.max()] / size.max(), 3))) for size in sizes)
+    table = listing_table(material, "balance", "balance" if material.has_free_moments else "balance_forces")
     figures = ("balance_orders", "balance_ellipses") if material.full or seen > 1 else ()
-    return material.presented([_by_order(material)], figures)
+    return material.presented([table], figures)
 
+
+_CRANKPIN = Over("crankpin", lambda material: [key for key in _columns(material) if key.startswith("crankpin_")])
 
 SECTIONS = (
     # polar, unrolled and wear in one
@@ -289,7 +287,7 @@ SECTIONS = (
         When(full, (Head("wear", 2), *_WEAR)),
     ), _has_pin),
     Section("polar", (
-        Head("crankpin"), *_PIN, Shown(("crankpin_polar",), (Over("crankpin", _of_crankpin),)),
+        Head("crankpin"), *_PIN, Shown(("crankpin_polar",), (_CRANKPIN,)),
     ), _has_pin),
     Section("unrolled", (Head("unrolled"), _STATED, Shown(("crankpin_load",), (_LOADS,))), _has_pin),
     Section("big_end", (

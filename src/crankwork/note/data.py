@@ -11,7 +11,7 @@ from crankwork.analysis.input_loads import ChamberInput, LoadInput, stated_chamb
 from crankwork.formula.traced_value import Input, Node, in_order
 from crankwork.locale import translate
 from crankwork.machine import Bearings, Engine, TransferTable
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
 from crankwork.mechanism.linkage import Member
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import links_of
@@ -38,6 +38,7 @@ from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import SUBJECTS
+from crankwork.quantities.quantity import number_of
 from crankwork.report.display import key_unit, link_label
 from crankwork.report.drawing import crank_gear_scheme
 from crankwork.report.sketch import Length
@@ -338,7 +339,7 @@ def _chambers(material: Material) -> Iterator[Block]:
     yield words.table("chambers", ("chamber", "faces", *sizes, "gas"), rows, "llrrrl")
     for charge in stated_charges(material.machine):
         dead = "; ".join(_amount(volume, temperature, words) for volume, temperature in charge.dead_volumes) or "–"
-        parts = {"name": charge.name, "chambers": ", ".join(charge.chambers), "dead": dead}
+        parts = {"name": charge.name, "chambers": ", ".join(map(number_of, charge.chambers)), "dead": dead}
         if charge.exponent is None:
             yield words.paragraph("charge_given", **parts)
         else:
@@ -348,7 +349,7 @@ def _chambers(material: Material) -> Iterator[Block]:
 def _of_chamber(chamber: ChamberInput, material: Material) -> Iterator[str]:
     """Yield name, faces, areas, clearance, pressure around, and what gives the pressure of a chamber."""
     words, results = material.words, material.results
-    yield chamber.name
+    yield words.part(chamber.name)
     yield ", ".join(f"{words.part(slider)} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
     keys = [f"piston_area.{owner}" for owner in chamber.owners]
     yield "; ".join(words.shown(key, results.value(key), digits=material.digits) for key in keys)
@@ -411,7 +412,9 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
     times = [segment.share * law.period for segment in law.segments]
     rows = [
         (
-            str(number), _moves(segment, words), *(words.shown(key, place) for place in ends),
+            str(number),
+            words.kind(segment.kind) if isinstance(segment.kind, str) else translate("memory.own_law", words.language),
+            *(words.shown(key, place) for place in ends),
             words.number(sum(times[: number - 1])), words.number(times[number - 1]),
         )
         for number, (segment, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
@@ -419,10 +422,6 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
     ends = ((words.column(name, key_unit(key)),) for name in ("law_from", "law_to"))
     times_of = (words.titled(title) for title in ("start_time", "segment_time"))
     return words.table("law", ("number", "motion_law", *ends, *times_of), rows, "clrrrr", "t:law")
-
-
-def _moves(segment: Segment, words: Words) -> str:
-    return words.kind(segment.kind) if isinstance(segment.kind, str) else translate("memory.own_law", words.language)
 
 
 def _table(material: Material) -> Iterator[Block]:

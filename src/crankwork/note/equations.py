@@ -43,6 +43,7 @@ from crankwork.note.math import RESULT_DIGITS, enough_digits, formula_box, is_ex
 from crankwork.note.symbols import OF_MASSES, number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
+from crankwork.quantities.quantity import number_of
 from crankwork.report.display import is_per_area, key_unit
 from crankwork.report.display import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
@@ -164,7 +165,7 @@ def value_symbol(key: str, language: Language) -> str:
         shown = shown.partition("_")[0]
     if kind in _OF_HARMONICS and names:
         return f"{shown}{',' if '_' in shown else '_'}{number(float('.'.join(names)), language)}"
-    marks = [known.get(name, name) for name in names]
+    marks = [known.get(name, number_of(name)) for name in names]
     # points and numbers are marks; a whole word would be too long for a subscript
     below = ",".join(mark for mark, name in zip(marks, names, strict=True) if name in known or len(mark) <= _SHORT_NAME)
     if kind in _AT_POINTS and below:
@@ -333,7 +334,8 @@ def line_parts(
     elif isinstance(step, SumLine) and step.terms:
         names = [symbols.get(term.key) or value_symbol(term.key, language) for term in step.terms]
         numbers = [number(term.value, language, digits=digits) for term in step.terms]
-        parts = [" + ".join(names), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
+        fenced = (f"({printed})" if printed.startswith("−") else printed for printed in numbers[1:])
+        parts = [" + ".join(names), " + ".join([numbers[0], *fenced])]
     while parts and parts[-1] == number(step.value, language, digits=least):
         # the same number follows with its unit
         parts.pop()
@@ -348,10 +350,6 @@ def _angles(step: FormulaLine, language: Language) -> dict[str, str]:
         return {}
     degrees = whole_degrees(tree.operands[0], step.values)
     return {} if degrees is None else {tree.operands[0].name: f"{number(degrees, language)}°"}
-
-
-def _fenced(printed: str) -> str:
-    return f"({printed})" if printed.startswith("−") else printed
 
 
 def by_area(step: Line, area: float) -> tuple[Line, Values]:

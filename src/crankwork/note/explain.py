@@ -72,13 +72,9 @@ _FENCES = re.compile(r"[() ]")
 Place = Callable[[str, Iterable[float]], str]
 
 
-def _path(path: str, _: Iterable[float]) -> str:
-    return path
-
-
 @in_own_units
 def explanation(
-    results: Results, key: str, at: float | None = None, language: Language = "en", place: Place = _path
+    results: Results, key: str, at: float | None = None, language: Language = "en", place: Place = lambda path, _: path
 ) -> str:
     """Return how a value came about, line by line down to what is given.
 

@@ -10,7 +10,7 @@ from crankwork.analysis import Array
 from crankwork.analysis.input_loads import FrictionInput, stated_friction, stated_loads
 from crankwork.analysis.mechanism import torque_by_routes
 from crankwork.analysis.rounding_noise import without_rounding
-from crankwork.note.document import Block, Citation, ItemList, Math, Paragraph, Reference, Run, Runs, Table
+from crankwork.note.document import Block, Citation, ItemList, Math, Paragraph, Reference, Run, Runs
 from crankwork.note.material import Material
 from crankwork.note.parts import (
     At,
@@ -100,13 +100,6 @@ def _along(material: Material) -> Iterable[str]:
 def _across(material: Material) -> Iterable[str]:
     """Return the columns of forces on wall, rod and crankpin."""
     return [key for key in _ACROSS if key != "rod_transverse_force" or any_nonzero((key,), material.columns)]
-
-
-def _to_six_decimals(material: Material) -> Table | None:
-    """Return the gas force, inertia force and their sum, to six decimals where they are per area."""
-    return long_table(
-        material, "along", _OF_PISTON, decimals=_VIETNAMESE if material.per_area and material.full else None
-    )
 
 
 def _undrawn(material: Material) -> Iterator[Block]:
@@ -225,7 +218,9 @@ SECTIONS = (
     ), works("masses")),
     Section("piston_forces", (
         Head("along"), At("forces"), Lines("forces", (*_BEFORE_FORCES, "weight_force", "piston_force")),
-        Shown(("piston_forces",), (_to_six_decimals,)),
+        # to six decimals where they are per area
+        Shown(("piston_forces",), (lambda material: long_table(
+            material, "along", _OF_PISTON, decimals=_VIETNAMESE if material.per_area and material.full else None),)),
         Lines("force_extremes", ("piston_force_max", "piston_force_min"), intro="extremes"),
     ), works("forces")),
     Section("crank_forces", (Head("forces"), *_WORKED, _ON_CRANKPIN, _OF_FORCES, _OF_POWER), works("forces")),

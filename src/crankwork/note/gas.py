@@ -46,6 +46,7 @@ from crankwork.note.wording import Words, in_display_unit
 from crankwork.preparation.prepared import Notice
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.key import key_of
+from crankwork.quantities.quantity import number_of
 from crankwork.report.display import FILE_KEYS, displayed
 from crankwork.units import UNITS
 
@@ -315,6 +316,9 @@ def _points(material: Material) -> Table | None:
         numbers = np.array([pressure.node.operands[0].value for _, pressure in listed])
         columns.insert(1, quantity_column(material, "travel_share", shares))
         columns.insert(4, quantity_column(material, "listed_pressure", numbers))
+        if not material.full:
+            # what is given, so narrow that its halves stand side by side
+            return folded(column_table("points", columns[:3] + columns[4:], words))
     if gas is not None and gas.is_absolute:
         columns.append(quantity_column(material, "gas_pressure", pressures - gas.ambient))
     return column_table("points", columns, words)
@@ -399,7 +403,9 @@ def _assumed(material: Material) -> set[str]:
 def _works(material: Material) -> Iterator[Block]:
     """Yield the table of the single values of every chamber."""
     words = material.words
-    rows = [(chamber.name, *_values(chamber.name, material)) for chamber in stated_chambers(material.machine)]
+    rows = [
+        (number_of(chamber.name), *_values(chamber.name, material)) for chamber in stated_chambers(material.machine)
+    ]
     titles = [words.titled(key, QUANTITIES[base_key(key)].unit) for key in _SINGLE]
     yield words.table("gas_work", ("chamber", *titles), rows, "l" + "r" * len(_SINGLE))
 
@@ -410,10 +416,6 @@ def _values(name: str, material: Material) -> Iterator[str]:
     for key in _SINGLE:
         value = summary.get(f"{key}.{name}", math.nan)
         yield words.number(in_display_unit(key.removesuffix("_max"), [value])[0], digits=material.digits)
-
-
-def _is_absolute(material: Material) -> bool:
-    return material.machine.gas is not None and material.machine.gas.is_absolute
 
 
 def two_bases(material: Material) -> Notice | None:
@@ -445,7 +447,8 @@ SECTIONS = (
     Section("cycle", (Head("cycle"), _cycle), lambda material: bool(material.cycle)),
     Section("indicator", (
         Head("indicator"), _measured, Lines("gas", intro="volumes"), When(full, (_polytropes,)),
-        When(_is_absolute, (Text("absolute"),)),
+        When(lambda material: material.machine.gas is not None and material.machine.gas.is_absolute,
+             (Text("absolute"),)),
         Shown(("indicator", "pressure"), (_points, in_full(_laws))),
         Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"),
         _bases, _OF_DELIVERY,

@@ -226,7 +226,8 @@ def _of_piston(results: Results, angle: float, force_angle: float | None) -> Ite
     yield Group("harmonics", _own(moving, results, _HARMONICS), angle)
     yield Group("extremes", _own(moving, results, _EXTREMES))
     yield Group("masses", _followed(moving, results, _MASSES))
-    yield Group("gas", _own(loaded, results, (*_space(results), *_points(results))))
+    points = [key for key, known in trace.items() if key.startswith(_POINTS) and not known.varies]
+    yield Group("gas", _own(loaded, results, (*_space(results), *points)))
     if has_forces:
         yield Group("forces", _followed(loaded, results, _PISTON_FORCES), force_angle)
         yield Group("reduction", _own(loaded, results, _of_cylinder(machine, _PISTON_REDUCTION)), force_angle)
@@ -287,11 +288,6 @@ def _space(results: Results) -> tuple[str, ...]:
     """Return the sizes of the cylinder; a calculated cycle begins with the compression ratio."""
     space = results.solved.space
     return _SPACE[:-1] if space is not None and space.calculated is not None else _SPACE
-
-
-def _points(results: Results) -> list[str]:
-    """Return volumes and pressures at the points of a diagram."""
-    return [key for key, known in results.trace.items() if key.startswith(_POINTS) and not known.varies]
 
 
 def _later_forces(results: Results) -> list[str]:

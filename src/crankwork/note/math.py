@@ -94,7 +94,8 @@ def _box(tree: Expression, printing: _Printing) -> tuple[Box, int]:
         case Number(value):
             return _bound(*number_box(value, printing.language, digits=15))
         case Operation(function, (left, right)) if function in (operator.add, operator.sub):
-            return _sum(Sign("+" if function is operator.add else "−"), left, right, printing), _SUM
+            sign = Sign("+" if function is operator.add else "−")
+            return row(_box(left, printing)[0], sign, _wrapped(right, _SUM + (sign.text == "−"), printing)), _SUM
         case Operation(operator.mul, (left, right)):
             return _product(left, right, printing), _PRODUCT
         case Operation(operator.truediv, (left, right)):
@@ -128,10 +129,6 @@ def _wrapped(tree: Expression, level: int, printing: _Printing) -> Box:
     """Return the box of an operand, in parentheses if it binds less than `level` or begins with a minus."""
     box, binding = _box(tree, printing)
     return Fence(box) if binding < level or leads_with_sign(box) else box
-
-
-def _sum(sign: Sign, left: Expression, right: Expression, printing: _Printing) -> Box:
-    return row(_box(left, printing)[0], sign, _wrapped(right, _SUM + (sign.text == "−"), printing))
 
 
 def _product(left: Expression, right: Expression, printing: _Printing) -> Box:

@@ -13,6 +13,7 @@ from crankwork.mechanism.driver import Cylinder, rod_name
 from crankwork.mechanism.dyads import Chain
 from crankwork.mechanism.joints import Pin, group_links, joints, pivots_of
 from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.structure import ROMAN
 from crankwork.note.captions import printed_unit
 from crankwork.note.closing import errors
 from crankwork.note.document import Block, Citation, Reference, Run, Runs, Table
@@ -56,7 +57,6 @@ _COORDINATE = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
     "driver_angular_acceleration", "driver_jerk", "driver_angular_jerk",
 )  # fmt: skip
-_ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 _SOURCE = "norton_2012, ch. 4"
 _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
 _ANGLES = ("transmission_angle", "pressure_angle")
@@ -111,10 +111,6 @@ def _transfer(material: Material) -> Iterator[Block]:
     return tabulated(material, "transfer", columns, "transfer")
 
 
-def _centres(material: Material) -> Iterable[str]:
-    return material.of_axes("instant_centre")
-
-
 _MOST = ("piston_velocity_max_angle", "piston_velocity_max", "piston_velocity_min")
 _OF_RODS = Over("rod", _ROD, one_turn=True)
 _EXACT_ORDERS = When(
@@ -127,7 +123,7 @@ _REPEATS, _EXTREMES = Text("repeats"), Lines("extremes", intro="extremes")
 # where links turn about that have no fixed pivot
 _INSTANT_CENTRES = When(lambda material: material.full and bool(material.of_axes("instant_centre")), (
     Head("instant_centres", 2), Text("instant_centres", {"source": Citation(_CENTRES)}), At("instant_centres"),
-    Lines("instant_centres"), Places("instant_centres", _centres),
+    Lines("instant_centres"), Places("instant_centres", lambda material: material.of_axes("instant_centre")),
 ))  # fmt: skip
 _OF_PIN = {"along": "x₁ + ξ₁ cos φ₁ − η₁ sin φ₁ = x₂ + ξ₂ cos φ₂ − η₂ sin φ₂",
            "across": "y₁ + ξ₁ sin φ₁ + η₁ cos φ₁ = y₂ + ξ₂ sin φ₂ + η₂ cos φ₂"}  # fmt: skip
@@ -162,13 +158,13 @@ def _structure(material: Material) -> Iterator[Block]:
             ", ".join(
                 f"{numbers[name]} ({link_label(name, words.language)})" for name in group.members if name in numbers
             ),
-            _ROMAN[group.number],
+            ROMAN[group.number],
             words.kind(kinds.get(frozenset(group.members), "")),
         )
         for number, group in enumerate(analysed.groups, start=1)
     ]
     yield words.table("groups", ("group", "members", "class", "species"), rows, "clcc")
-    yield words.paragraph("formula", formula=analysed.formula.replace("->", "→"), number=_ROMAN[analysed.number])
+    yield words.paragraph("formula", formula=analysed.formula.replace("->", "→"), number=ROMAN[analysed.number])
     kind = four_bar_type(material.machine)
     if kind:
         yield words.paragraph("grashof", type=words.kind(kind))

@@ -171,17 +171,55 @@ def is_whole(block: Block) -> bool:
 
 def flow(
     blocks: Sequence[Block], heights: Sequence[float], off: float, smaller: dict[int, float] | None = None
-) -> Iterator[int]:
-    """Yield the places of blocks in the order in which they are printed.
+) -> list[int]:
+    """Return the places of blocks in the order in which they are printed, that which leaves least of the pages empty.
 
     `heights`: how high each is [pt]; `off`: by what share they may be wrong; `smaller`: is given the share of its size
     that a figure keeps which has almost room on its page.
     """
-    heights = list(heights)
+    order, at_once = list(range(len(blocks))), frozenset[int]()
+    best = _flow(order, blocks, heights, off, None if smaller is None else at_once)
+    for k, block in enumerate(blocks):
+        if not isinstance(block, Figure):
+            continue
+        # a figure may stand before the table that comes before it, or be smaller so that it need not wait
+        choices = [(order, at_once | {k})] if smaller is not None else []
+        before = next((n for n in range(k - 1, -1, -1) if not isinstance(blocks[n], Paragraph)), k)
+        if isinstance(blocks[before], Table) and is_whole(blocks[before]):
+            changed = [n for n in order if n != k]
+            changed.insert(changed.index(before), k)
+            choices += [(changed, at_once | {k}), (changed, at_once)]
+        for sequence, chosen in choices:
+            tried = _flow(sequence, blocks, heights, off, None if smaller is None else chosen)
+            if tried.empty < best.empty - LINE:
+                best, order, at_once = tried, sequence, chosen
+    if smaller is not None:
+        smaller |= best.smaller
+    return best.order
+
+
+class _Flow(NamedTuple):
+    """An order of blocks, how much of the pages stays empty [pt], and the shares of their size that figures keep."""
+
+    order: list[int]
+    empty: float
+    smaller: dict[int, float]
+
+
+def _flow(
+    sequence: Sequence[int], blocks: Sequence[Block], heights: Sequence[float], off: float,
+    at_once: frozenset[int] | None,
+) -> _Flow:  # fmt: skip
+    """Return blocks that come in some sequence in the order in which they are printed.
+
+    `at_once`: the figures that are made smaller rather than wait; others only where their section ends; None: none is.
+    """
+    heights, order, smaller, empty = list(heights), list[int](), dict[int, float](), 0.0
     waiting: list[int] = []
     factors = np.linspace(1.0 - off, 1.0 + off, 15)
     filled, waited, is_heading = np.zeros(len(factors)), 0.0, False
-    for k, (block, height) in enumerate(zip(blocks, heights, strict=True)):
+    for k in sequence:
+        block, height = blocks[k], heights[k]
         may_wait = is_whole(block)
         waiting += [k] if may_wait else []
         covers = isinstance(block, TitlePage) and not block.is_plain
@@ -194,26 +232,36 @@ def flow(
             ready = [] if inside else [*_ready(waiting, blocks)]
             # what has room on the page stands before what would leave the rest of it empty
             ready.sort(key=lambda place: bool(_left(filled, heights[place]).max()))
-            free = PAGE - float(filled.max()) if smaller is not None and most > _LITTLE else 0.0
+            free = PAGE - float(filled.max())
             place = next(
                 (place for place in ready if _left(filled, heights[place]).max() <= most
-                 or _share_of_size(blocks[place], heights[place], free) < 1.0), None,
+                 or (at_once is not None and (most > _LITTLE or place in at_once)
+                     and _share_of_size(blocks[place], heights[place], free) < 1.0)), None,
             )  # fmt: skip
             if place is None and (waited <= _LONG or _left(filled, heights[waiting[0]]).mean() > _EMPTY):
                 break
             place = waiting[0] if place is None else place
             waiting.remove(place)
-            share = _share_of_size(blocks[place], heights[place], PAGE - float(filled.max()))
-            if smaller is not None and share < 1.0:
-                smaller[place], heights[place] = share, (PAGE - float(filled.max())) / (1.0 + off)
-            filled, waited, is_heading = _after(filled, blocks[place], heights[place] * factors), 0.0, False
-            yield place
+            share = _share_of_size(blocks[place], heights[place], free)
+            if at_once is not None and share < 1.0:
+                smaller[place], heights[place] = share, free / (1.0 + off)
+            after = _after(filled, blocks[place], heights[place] * factors)
+            empty += _unused(filled, after, heights[place])
+            filled, waited, is_heading = after, 0.0, False
+            order.append(place)
         if not may_wait:
-            yield k
+            order.append(k)
             is_heading = isinstance(block, Heading)
             waited += height if waiting else 0.0
-            filled = np.zeros(len(factors)) if is_new else _after(filled, block, height * factors)
-    yield from waiting
+            after = np.zeros(len(factors)) if is_new else _after(filled, block, height * factors)
+            empty += 0.0 if is_new else _unused(filled, after, height)
+            filled = after
+    return _Flow(order + waiting, empty, smaller)
+
+
+def _unused(before: Array, after: Array, height: float) -> float:
+    """Return how much of a page stays empty before a block of some height. [pt]"""
+    return float(np.mean((after - before - height + LINE) % PAGE)) - LINE
 
 
 def _ready(waiting: Sequence[int], blocks: Sequence[Block]) -> Iterator[int]:

@@ -55,7 +55,7 @@ from crankwork.note.layout import (
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import DIVIDED, TOGETHER, Numbering, flow, is_whole, leads, numbering
 from crankwork.note.symbols import symbol_box
-from crankwork.note.table_width import SIZES, fits, one_line_widths, room
+from crankwork.note.table_width import SIZES, fits, free_widths, one_line_widths, room
 from crankwork.quantities import Language
 from crankwork.resources import read_resource
 from crankwork.show.canvas import MM
@@ -160,7 +160,8 @@ def _written(note: Note, numbers: Numbering) -> Iterator[str]:
         if isinstance(first, Table) and first.wide:
             yield f"{_TURNED}{cells[0]}{_TURNED_END}"
         else:
-            yield cells[0] if len(cells) == 1 else f"#beside[{cells[0]}][{cells[1]}]"
+            foot = "(align: bottom)" * all(isinstance(note.blocks[place], Figure) for place in places)
+            yield cells[0] if len(cells) == 1 else f"#beside{foot}[{cells[0]}][{cells[1]}]"
 
 
 def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterator[str]:  # noqa: C901 - one case per block
@@ -246,10 +247,8 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
         for row in block.rows
     )
     again = "" if is_kept else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
-    header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
-    # words need less room between their rows than numbers
-    close = ", inset: (x: 4pt, y: 2pt)" if block.label == DIVIDED else ""
-    columns = _columns(block, size, marked=not is_kept) + close
+    header = f"table.header({again}..({headings},).map(titled))"
+    columns = _columns(block, size, marked=not is_kept)
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
         f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_kept)}), {header},\n{rows}))\n}}"
@@ -280,12 +279,19 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
     `marked`: whether a row that says where the table goes on stands above its header.
     """
     widths = one_line_widths(block.headings, block.rows, size, room(block))
+    # words need less room between their rows than numbers
+    close = ", inset: (x: 4pt, y: 2pt)" if block.label == DIVIDED else ""
     if not widths:
         # words have the room that symbols and numbers leave, those of long entries more of it
         longest = [max((len(cell) for cell in column if isinstance(cell, str) and " " in cell), default=0)
                    for column in zip(*block.rows, strict=True)]  # fmt: skip
-        return f"columns: ({', '.join(f'{max(length, _SHORT)}fr' if length else 'auto' for length in longest)},)"
-    columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
+        return f"columns: ({', '.join(f'{max(length, _SHORT)}fr' if length else 'auto' for length in longest)},){close}"
+    if block.rows and not close:
+        # numbers stand in the middle under a wide heading
+        free = free_widths(block, size, widths)
+        sides = ", ".join(f"(left: 4pt, right: {4 + beside / 2:.1f}pt, y: {_INSET}pt)" for beside in free)
+        close = f", inset: ({sides},)"
+    columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},){close}"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):
         return columns
     return f"{columns}, rows: ({'auto, auto' if marked else 'auto'}, {_LINE * size + 2 * _INSET:.2f}pt)"
@@ -364,7 +370,8 @@ def typst_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
             return f"lr({marks[0]} {typst_box(inside)} {marks[1]})"
         case Script(base, below, above):
             feet = f", b: {typst_box(below)}" if below else ""
-            return f"attach({_base(base)}{feet}{f', t: {typst_box(above)}' if above else ''})"
+            letter = isinstance(base, Upright) and len(base.text) > 1 and f"op({typst_string(base.text)})"
+            return f"attach({letter or typst_box(base)}{feet}{f', t: {typst_box(above)}' if above else ''})"
         case Apply(name, argument):
             return f"{_name(name)} {typst_box(argument)}"
         case Marked(inside, mark):
@@ -391,10 +398,6 @@ def _upright(text: str) -> str:
     if text == "d":
         return "upright(d)"
     return _PRIMES.get(text) or typst_string(text)
-
-
-def _base(base: Box) -> str:
-    return f"op({typst_string(base.text)})" if isinstance(base, Upright) and len(base.text) > 1 else typst_box(base)
 
 
 def _name(name: Box) -> str:

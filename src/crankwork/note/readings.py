@@ -12,7 +12,7 @@ import numpy as np
 from crankwork.note.document import Citation, Paragraph, Run
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import own_name
-from crankwork.report.display import key_unit, link_label, row_name
+from crankwork.report.display import display_key, key_unit, link_label, row_name
 
 if TYPE_CHECKING:
     from crankwork.note.material import Material
@@ -62,6 +62,8 @@ _PARTS = ("gas_force", "inertia_force")
 def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
     """Return the sentence that reads a figure of some kind, of one of several crankpins; None where it has none."""
     known, mean = _known(kind, material, pin), material.summary.get("mean_torque", 0.0)
+    # what a driver must give is against the torque that is drawn
+    mean = -mean if _is_driven(material) else mean
     if kind in _OF_MACHINES:
         return _OF_MACHINES[kind](material)
     parts_known = kind != "piston_forces" or {*_PARTS} <= material.columns.keys()
@@ -150,7 +152,8 @@ def concluded(material: Material) -> Iterator[Paragraph]:
     words, summary, results = material.words, material.summary, material.results
     output = "shaft_output" if "effective_power" in summary else "diagram_output"
     sentences = [
-        reading(kind, material) for kind in (output, "range_of_piston_forces", "total_torque", "crankpin_bearing")
+        _of_power(material) if _is_driven(material) and "shaft_power" in summary else reading(output, material),
+        *(reading(kind, material) for kind in ("range_of_piston_forces", "total_torque", "crankpin_bearing")),
     ]
     if "residual_temperature_deviation" in summary:
         odd = [notice for notice in results.notices if {"low", "high"} <= notice.values.keys()]
@@ -223,9 +226,7 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
         yield words.paragraph("reads_planes", values="; ".join(balanced))
     yield from filter(None, (reading(kind, material) for kind in ("unbalanced", "hammer_blow")))
     if "mean_torque" in summary and "shaft_power" in summary and summary["shaft_power"] > 0:
-        known = [key for key in ("mean_torque", "shaft_power", "standard_motor_power") if key in summary]
-        amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in known}
-        yield words.paragraph("reads_motor" if "standard_motor_power" in known else "reads_power", **amounts)
+        yield _of_power(material)
     elif "dynamic_torque_max" in summary and "static_torque_max" not in summary and not words.is_partial:
         torque = material.columns.get("driving_torque", np.zeros(2))[:-1]
         # losses take power also where no load does
@@ -242,6 +243,19 @@ def concluded_of_linkage(material: Material) -> Iterator[Paragraph]:
             share = words.number(100.0 * material.plan_difference, digits=2)
             agreement += (" ", *words.sentence("reads_plans", share=share, length=words.number(LEGIBLE)))
         yield Paragraph(agreement)
+
+
+def _of_power(material: Material) -> Paragraph:
+    """Return the sentence on the mean torque and power that a machine takes, and on the size of its motor."""
+    words, summary = material.words, material.summary
+    known = [key for key in ("mean_torque", "shaft_power", "standard_motor_power") if key in summary]
+    amounts = {key: words.amount(summary[key], key_unit(key), digits=4) for key in known}
+    return words.paragraph("reads_motor" if "standard_motor_power" in known else "reads_power", **amounts)
+
+
+def _is_driven(material: Material) -> bool:
+    """Return whether the mean torque is what the driver of a machine must give."""
+    return display_key("mean_torque", material.results) == "mean_driving_torque"
 
 
 def agree(checks: Mapping[str, float]) -> bool:

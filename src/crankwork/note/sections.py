@@ -241,13 +241,15 @@ def cover(document: Document, language: Language, subtitle: str) -> TitlePage:
     institution = (document.ministry, document.institution, document.faculty, document.department)
     above = (document.work, named["subject"] if document.subject else "")
     below = (document.subtitle or subtitle, document.designation, named["variant"] if document.variant else "")
-    when = _when(document.date, document.year, language)
+    place = when = _when(document.date, document.year, language)
+    if document.city:
+        place = translate("note.cover_place", language, city=document.city, when=when).strip(", ")
     return TitlePage(
         institution=tuple(filter(None, institution)),
         above=tuple(filter(None, above)),
         below=tuple(filter(None, below)),
         people=tuple(person for key in _PEOPLE[language] if (person := _person(document, key, language)).names),
-        place=translate("note.cover_place", language, city=document.city, when=when) if document.city else when,
+        place=place,
     )
 
 

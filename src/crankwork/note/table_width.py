@@ -55,6 +55,15 @@ def one_line_widths(headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], si
     return []
 
 
+def free_widths(table: Table, size: float, widths: Sequence[float]) -> list[float]:
+    """Return the width that a heading leaves beside the numbers of each column of them. [pt]"""
+    columns, align = list(zip(*table.rows, strict=True)), table.align or "r" * len(widths)
+    return [
+        max(0.0, wide - _SIDES - size * max(map(_line, column), default=0.0)) * (place == "r")
+        for wide, column, place in zip(widths, columns, align, strict=True)
+    ]
+
+
 def _line(cell: Cell) -> float:
     """Return the width of a cell in one line. [em]"""
     if isinstance(cell, Math):

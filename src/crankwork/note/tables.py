@@ -49,9 +49,24 @@ def quantity_column(
     return Column(words.titled(key), words.column_texts(shown, digits=digits, decimals=decimals))
 
 
-def quantity_columns(material: Material, keys: Iterable[str], columns: Mapping[str, Array]) -> list[Column]:
-    """Return columns of quantities, as many digits for the largest value of each."""
-    return [quantity_column(material, key, columns[key]) for key in keys]
+def quantity_columns(
+    material: Material, keys: Iterable[str], columns: Mapping[str, Array], decimals: Mapping[str, int] | None = None
+) -> list[Column]:
+    """Return columns of quantities; one less digit where another of the same unit has fewer decimals.
+
+    `decimals`: of some columns, as they are told.
+    """
+    words, told, fewest = material.words, dict(decimals or {}), dict[str, int]()
+    shown: dict[str, list[float]] = {key: material.shown(key, columns[key]).tolist() for key in keys}
+    needed = {key: words.decimals(values) for key, values in shown.items()}
+    for key, count in needed.items():
+        fewest[words.unit(key)] = min(count, fewest.get(words.unit(key), count))
+    for key, count in needed.items():
+        if fewest[words.unit(key)] < count <= 2 * words.digits:
+            told.setdefault(key, count - 1)
+    return [
+        Column(words.titled(key), words.column_texts(values, decimals=told.get(key))) for key, values in shown.items()
+    ]
 
 
 def angle_table(material: Material, caption: str, keys: Iterable[str], *, until: float = math.inf) -> Table | None:
@@ -73,9 +88,7 @@ def long_table(
     known = [key for key in keys if key in material.columns]
     worked = np.abs(degrees - _worked(material, known, until)) < _NEAR
     rows = short_rows(material, until=until) | (worked & (degrees <= until + _NEAR))
-    columns = [
-        quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key)) for key in known
-    ]
+    columns = quantity_columns(material, known, {key: material.columns[key][rows] for key in known}, decimals)
     if not columns:
         return None
     angles = [words.number(float(angle)) for angle in degrees[rows]]
@@ -155,15 +168,16 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
         ] or rows
     if listing.names:
         columns.append(Column((words.column("row"),), [_row_text(listing.names[k], words) for k in rows]))
-    shown = list[str]()
+    shown, own = list[str](), dict[str, Array]()
     for key, values in listing.columns.items():
-        if not columns:
+        if not columns and not own:
             shown.append(key)
             entries = [words.number(value) for value in material.shown(key, values).tolist()]
             columns.append(Column(words.titled(key), entries))
         elif not (listing.names and material.has_piston) or np.any(np.nan_to_num(values[rows])):
-            columns.append(quantity_column(material, key, values[rows] if listing.names else values))
+            own[key] = values[rows] if listing.names else values
             shown.append(key)
+    columns += quantity_columns(material, own, own)
     symbols = {words.symbol(key): label(key, words.language) for key in shown}
     symbols.pop(words.symbol("crank_angle"), None)
     explained = tuple(symbols.items())
@@ -221,9 +235,9 @@ def tabulated(
     material: Material, caption: str, keys: Iterable[str] | Sequence[Column], label: str = ""
 ) -> Iterator[Table]:
     """Yield a table over the numbered positions of columns, finished or by their keys."""
-    columns = [
-        quantity_column(material, item, material.columns[item]) if isinstance(item, str) else item for item in keys
-    ]
+    known = {item: material.columns[item] for item in keys if isinstance(item, str)}
+    made = dict(zip(known, quantity_columns(material, known, known), strict=True))
+    columns = [made[item] if isinstance(item, str) else item for item in keys]
     tables = position_tables(caption, material.positions, columns, material.words, first=material.first, label=label)
     # a narrow one takes half the height
     return tables if material.full else map(partial(folded, most=2, long=_STEPS), tables)

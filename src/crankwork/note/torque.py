@@ -171,13 +171,10 @@ def _at_all(key: str) -> Callable[[Material], Iterator[Block]]:
     def equations(material: Material) -> Iterator[Block]:
         results, shown = material.results, material.words.symbol(key)
         for place, degrees in enumerate(results.grid.degrees.tolist(), start=1):
-            yield Equation(results.moment(degrees).step(results.trace[key]), symbol=_numbered(shown, place))
+            symbol = f"{shown}{',' if '_' in shown else '_'}{place}"
+            yield Equation(results.moment(degrees).step(results.trace[key]), symbol=symbol)
 
     return equations
-
-
-def _numbered(symbol: str, position: int) -> str:
-    return f"{symbol}{',' if '_' in symbol else '_'}{position}"
 
 
 def _cylinders(count: Callable[[int], bool]) -> Condition:
@@ -339,10 +336,6 @@ def _cell(material: Material, key: str) -> str:
     return "–" if value is None else material.words.number(displayed(key, value) if unit else value, digits=4)
 
 
-def _is_forced(material: Material) -> bool:
-    return any(key.startswith("vibration_amplitude.") for key in material.summary)
-
-
 def _alone(material: Material) -> bool:
     """Return whether discs and shafts are all that a file states."""
     turning = material.machine.turning
@@ -418,19 +411,6 @@ def _whole_inertia(material: Material) -> list[Block]:
     return material.worked([*parts, *material.lines("engine_torque", "total_reduced_inertia")])
 
 
-def _exact_work(material: Material) -> Math:
-    return Math(material.words.symbol("excess_work.exact"))
-
-
-def _rated(material: Material) -> str:
-    return material.words.amount(material.machine.drive.rated_power, "kW")
-
-
-def _slip(material: Material) -> str:
-    """Return the slip of the motor that is selected. [%]"""
-    return material.words.number(100 * selection_of(material.machine).slip)
-
-
 def _gear_ratios(material: Material) -> Iterator[Block]:
     """Yield the size of the motor that is selected, and the table of its gear ratios."""
     words, summary, slip = material.words, material.results.summary, selection_of(material.machine).slip
@@ -438,7 +418,7 @@ def _gear_ratios(material: Material) -> Iterator[Block]:
     if size is None:
         yield words.paragraph("motor_beyond", source=Citation(SERIES_SOURCE))
     else:
-        yield words.paragraph("motor_size", source=Citation(SERIES_SOURCE), size=words.amount(size, "kW"))
+        yield words.paragraph("motor_size", source=Citation(SERIES_SOURCE), size=words.amount(size, "kW", digits=4))
     speeds = {float(key_of(key).owner): value for key, value in summary.items() if key.startswith("motor_ratio.")}
     rows = [
         tuple(words.number(value, digits=4) for value in (speed, speed * (1 - slip), ratio))
@@ -593,12 +573,14 @@ SECTIONS = (
         When(has("critical_speeds"), (
             Text("torsion_critical", {"source": Citation(_ORDERS)}), _Listing("critical_speeds"), Shown(("campbell",)),
         )),
-        When(_is_forced, (_vibration, Shown(("torsional_response",)))),
+        When(lambda material: any(key.startswith("vibration_amplitude.") for key in material.summary),
+             (_vibration, Shown(("torsional_response",)))),
         Lines("torsional_dampers", intro="torsion_dampers"),
     ), has("torsional_discs")),
     Section("evenness", (
         Head("evenness"), When(every(_OF_ENERGY, lacks(_IS_EXACT)), (Text("evenness_of_all"),)),
-        When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact", {"work": _exact_work}),)),
+        When(every(_OF_ENERGY, _IS_EXACT), (
+            Text("evenness_exact", {"work": lambda material: Math(material.words.symbol("excess_work.exact"))}),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), When(either(full, lacks(_IS_EXACT)), (Lines("uniformity"),)),
         When(_IS_EXACT, (
             At("reduction"), _whole_inertia, *_FOUND,
@@ -617,12 +599,14 @@ SECTIONS = (
         Shown(("speed",)),
     ), lambda material: bool(material.machine.turning) and any(map(material.has, _COLUMNS))),
     Section("motor", (
-        Head("motor"), Text("motor_choice", {"slip": _slip}),
+        Head("motor"), Text("motor_choice", {
+            "slip": lambda material: material.words.number(100 * selection_of(material.machine).slip)}),
         Lines("motor", ("shaft_power", "efficiency", "motor_power")),
         When(full, (Lines("motor"),)), When(lacks(full), (Lines("motor", ("motor_ratio",), first=True),)),
         _gear_ratios,
     ), every(works("motor"), lambda material: material.machine.drive.motor is None)),
-    Section("motor", (Head("motor"), Text("motor", {"rated": _rated}), Lines("motor")),
+    Section("motor", (Head("motor"), Text("motor", {
+        "rated": lambda material: material.words.amount(material.machine.drive.rated_power, "kW")}), Lines("motor")),
             lambda material: turning(material) and material.machine.drive.motor is not None),
     Section("flywheel", (
         Head("flywheel"), When(lacks(_is_wanted), (Lines("flywheel"),)),

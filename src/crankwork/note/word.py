@@ -167,7 +167,8 @@ class _Writer:
             self.turn(wide=isinstance(first, Table) and first.wide)
             parts = [self._xml(blocks[k], self._numbers.blocks[k]) for k in rows[number]]
             body = self._document.element.body
-            for xml in parts[0] if len(parts) == 1 else pair_xml(*parts):
+            place = "bottom" if all(isinstance(blocks[k], Figure) for k in rows[number]) else "top"
+            for xml in parts[0] if len(parts) == 1 else pair_xml(parts[0], parts[-1], place):
                 body.insert(len(body) - 1, _element(xml))
 
     def _height(self, block: Block, headings: int) -> float:

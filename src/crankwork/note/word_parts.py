@@ -125,13 +125,13 @@ def equation_xml(block: Equation, number: str, numbers: Numbering, printed: Prin
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
 
 
-def pair_xml(left: Iterable[str], right: Iterable[str]) -> Iterator[str]:
-    """Yield the paragraphs of two blocks side by side."""
+def pair_xml(left: Iterable[str], right: Iterable[str], place: str = "top") -> Iterator[str]:
+    """Yield the paragraphs of two blocks side by side, the lower one at the top or the bottom of the other."""
     half = TEXT_WIDTH // 2
     yield (
         f'<w:tbl><w:tblPr><w:tblW w:w="{TEXT_WIDTH}" w:type="dxa"/><w:tblLayout w:type="fixed"/>{_NONE}</w:tblPr>'
         f'<w:tblGrid>{2 * f"""<w:gridCol w:w="{half}"/>"""}</w:tblGrid><w:tr><w:trPr><w:cantSplit/></w:trPr>'
-        f"{''.join(cell(half, ''.join(part), 'top') for part in (left, right))}</w:tr></w:tbl>"
+        f"{''.join(cell(half, ''.join(part), place) for part in (left, right))}</w:tr></w:tbl>"
     )
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0"/>')
 
@@ -461,7 +461,7 @@ def omml_box(box: Box) -> str:  # noqa: C901, PLR0912 - one case per kind of box
         case Upright(text):
             return _math_run(text, "text")
         case Digits(text):
-            return _math_run(text, "text")
+            return _math_run(text, "upright")
         case Sign(text, "fence"):
             return _math_run(text, "literal")
         case Sign(text, _):

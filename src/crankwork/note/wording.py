@@ -172,17 +172,26 @@ class Words:
     ) -> list[str]:
         """Return numbers of one column, all with as many decimals as give the largest that many digits."""
         digits = digits or self.digits
-        known = [abs(value) for value in values if value == value]  # noqa: PLR0124 - not a number
-        largest = max(known, default=0.0)
         if decimals is None:
-            leading = 1 + int(f"{largest:.{digits - 1}e}".partition("e")[2]) if largest else 1
+            leading = self._leading(values, digits)
             if leading < -digits:
                 return [self.number(value, digits=digits) for value in values]
-            is_whole = all(value == round(value) and value < 10**digits for value in known)
-            decimals = 0 if is_whole else max(digits - leading, 0)
+            decimals = self.decimals(values, digits)
             # of millions nobody reads the ones
             values = [round(value, digits - leading) for value in values] if leading > digits + 2 else values
         return [self.fixed(value, decimals) for value in values]
+
+    def decimals(self, values: Sequence[float], digits: int | None = None) -> int:
+        """Return how many decimals give the largest of some numbers its digits; none to whole numbers."""
+        digits = digits or self.digits
+        is_whole = all(value == round(value) and abs(value) < 10**digits for value in values if math.isfinite(value))
+        return 0 if is_whole else max(digits - self._leading(values, digits), 0)
+
+    @staticmethod
+    def _leading(values: Sequence[float], digits: int) -> int:
+        """Return how many digits the largest number has before its decimal mark; of 0.05 it is -1."""
+        largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
+        return 1 + int(f"{largest:.{digits - 1}e}".partition("e")[2]) if largest else 1
 
     def place(self, degrees: float) -> tuple[Math, float, str]:
         """Return symbol, value and unit of a position: a crank angle, or a time."""

@@ -571,7 +571,8 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     most = {
         key: max((max(heights.values(), default=0.0) for heights in sizes[key].values()), default=0.0) for key in sizes
     }
-    panels = [panel for panel in sizes if most[panel] > _free(engine, panel)] or ["force"]
+    least = {panel: (_HARDLY if panel == "force" else _LEFT) * _inertia(engine) for panel in sizes}
+    panels = [panel for panel in sizes if most[panel] > least[panel]] or ["force"]
     # of what has no bar nothing is told
     seen = [kind for kind in kinds if any(max(sizes[panel][kind].values()) > 0.002 * most[panel] for panel in panels)]
     texts = [translate(f"report.{kind}", language) for kind in seen or kinds]
@@ -604,11 +605,6 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def _inertia(engine: Drawn) -> float:
     """Return the largest inertia force of one piston. [N]"""
     return float(np.max(np.abs(engine.columns["inertia_force"])))
-
-
-def _free(engine: Drawn, panel: str) -> float:
-    """Return the least free force that is drawn, or moment, taken as a force at a metre. [N], [N m]"""
-    return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
 
 
 def curved_loci(engine: Drawn) -> dict[int, tuple[Locus, Locus]]:

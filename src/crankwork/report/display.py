@@ -12,7 +12,7 @@ import numpy as np
 
 from crankwork.locale import decimal, has_text, texts, translate
 from crankwork.locale.numbers import number, unit_name
-from crankwork.mechanism.structure import structure
+from crankwork.mechanism.structure import ROMAN, structure
 from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key, derived_unit
 from crankwork.quantities.key import MOVED, Key, key_of
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
@@ -185,7 +185,8 @@ def link_label(link: str, language: Language) -> str:
 def link_numbers(results: Results | None) -> dict[str, str]:
     """Return the numbers of the moving links of a linkage by name, none of another machine.
 
-    A link that tells apart joints of one point has its number there too: `A_rod` is `A_2`.
+    Chambers and vessels whose names are words have Roman numbers. A link that tells apart joints of one point has its
+    number there too: `A_rod` is `A_2`.
     """
     linkage = results.machine.linkage if results is not None else None
     analysed = structure(linkage)[0] if linkage else None
@@ -193,7 +194,9 @@ def link_numbers(results: Results | None) -> dict[str, str]:
         return {}
     numbers = {name: str(number) for number, name in enumerate(analysed.links, start=1)}
     links = ((point, link) for point, owners in linkage.owners.items() for link in owners if link in numbers)
-    return {f"{point}_{link}": f"{point}_{numbers[link]}" for point, link in links} | numbers
+    held = (results.machine.chambers, results.machine.vessels) if results is not None else ()
+    words = {name: ROMAN[k] for parts in held for k, name in enumerate(parts, 1) if len(name) > 2 and k < len(ROMAN)}
+    return words | {f"{point}_{link}": f"{point}_{numbers[link]}" for point, link in links} | numbers
 
 
 def row_name(name: str, language: Language) -> str:

@@ -46,6 +46,7 @@ from crankwork.show.scene import (
     text_width,
 )
 from crankwork.show.theme import Theme
+from crankwork.units import from_si, shown_unit
 
 _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 10.5, 4.5, 80.0
 # tints of the key to the pressure, and how wide each is [mm]
@@ -109,7 +110,8 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
             lengths, has_room=has_room,
         )  # fmt: skip
         keys = _acting(path.mechanism, shape, _named_forces(columns, language), language)
-        about = [*_lengths(path.mechanism, None, language), *_members(shape, language), time]
+        named = (f"{number} – {link_label(name, language)}" for number, name in numbered(shape))
+        about = [*_lengths(path.mechanism, None, language), *named, time]
         tinted = [item.name.removeprefix("gas.") for item in sketch.parts if item.name.startswith("gas.")]
         pressures = [columns[f"gas_pressure.{name}"] for name in tinted if f"gas_pressure.{name}" in columns]
     return _film(sketch, path, seconds, known, "; ".join(about), keys, pressures, language, has_room=has_room)
@@ -252,7 +254,9 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     """
     (wide, tall), middle = sketch.high - sketch.low, (sketch.low + sketch.high) / 2
     width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(path, language)
-    bar, below, foot = _scale_bar(sketch.scale / 1e3, 0.3 * width, _MARGIN, "mm", language), list[Part](), _FOOT
+    of_lengths = shown_unit("mm")
+    bar = _scale_bar(sketch.scale / float(from_si(1.0, of_lengths)), 0.3 * width, _MARGIN, of_lengths, language)
+    below, foot = list[Part](), _FOOT
     if pressures:
         bar = [*_pressure_key(pressures, foot + _MARGIN + _ROW - _FOOT, language), *bar]
         foot += _ROW
@@ -394,11 +398,6 @@ def _lengths(mechanism: Mechanism, machine: Machine | None, language: Language) 
         f"{label(key, language)} {number(displayed(key, value), language)} {unit_name(key_unit(key), language)}"
         for key, value in lengths
     ]
-
-
-def _members(shape: Skeleton, language: Language) -> list[str]:
-    """Return the names of the numbered links."""
-    return [f"{number} – {link_label(name, language)}" for number, name in numbered(shape)]
 
 
 def _time(path: AnimationPath, seconds: float, language: Language) -> str:

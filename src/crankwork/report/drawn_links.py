@@ -202,17 +202,14 @@ def _add_slots(drawn: Scene, slides: list[_Slide]) -> None:
         )
         for index, slot in enumerate(drawn.slots):
             offset = slot.line.seen(slide.line.origin)[0]
-            if slot.carrier == guide.link and abs(offset[1]) < 0.5 and _is_parallel(slot.line, slide.line):
-                turn = float(np.sign(slot.line.along[0] @ slide.line.along[0]))
+            turn = float(slot.line.along[0] @ slide.line.along[0])
+            if abs(abs(turn) - 1) < 1e-6 and slot.carrier == guide.link and abs(offset[1]) < 0.5:
+                turn = float(np.sign(turn))
                 ends = sorted((offset[0] + turn * low, offset[0] + turn * high))
                 drawn.slots[index] = slot._replace(start=min(slot.start, ends[0]), end=max(slot.end, ends[1]))
                 break
         else:
             drawn.slots.append(Slot(guide.link, slide.line, low, high))
-
-
-def _is_parallel(first: MovingFrame, second: MovingFrame) -> bool:
-    return abs(abs(float(first.along[0] @ second.along[0])) - 1) < 1e-6
 
 
 def _add_rails(drawn: Scene, slides: list[_Slide]) -> None:

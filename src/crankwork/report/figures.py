@@ -441,19 +441,11 @@ def _heat_release(machine: Drawn) -> Drawing:
     return curves(degrees, columns, panels, figure_title("combustion", machine.language), machine.style)
 
 
-def _orders(machine: Drawn) -> str:
-    return "orders" if "piston_velocity_first_order" in machine.columns else ""
-
-
 def _compared(machine: Drawn) -> Drawing:
     results = machine.results
     if results.compared is None:
         raise TypeError("these results stand beside no others")
     return comparison_figure(results, results.compared, machine.language, per_area=machine.per_area)
-
-
-def _has_compared(machine: Drawn) -> bool:
-    return machine.results.compared is not None and bool(drawn_keys(machine.results.compared))
 
 
 def _own(machine: Drawn, name: str, keys: Sequence[str]) -> Drawing:
@@ -515,7 +507,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("zhukovsky_lever", lever_figure, every(_has_joint_forces, _turning, has_lever)),
     Construction("turning_moment", turning_moment, has_turning_moment),
     Construction("loops", loops, _loops),
-    Diagram("kinematics", kinematics, piston("piston_displacement"), _orders),
+    Diagram("kinematics", kinematics, piston("piston_displacement"),
+            lambda machine: "orders" if "piston_velocity_first_order" in machine.columns else ""),
     Diagram("brix", brix, piston("piston_displacement")),
     Diagram("tolle", tolle, piston("piston_displacement")),
     Diagram("pressure", pressure, piston("gas_pressure")),
@@ -554,7 +547,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("speed", speed_curve, _speed),
     Construction("wittenbauer", wittenbauer, lambda machine: (_drawn(machine) or _engine(machine))
                  and has_energy_mass_diagram(machine)),
-    Construction("comparison", _compared, _has_compared),
+    Construction("comparison", _compared, lambda machine: machine.results.compared is not None
+                 and bool(drawn_keys(machine.results.compared))),
 )  # fmt: skip
 
 
@@ -661,10 +655,14 @@ def curves(
     owners = {key_of(row.key).owner for panel in all_panels for row in panel}
     known = {number: name for number, name in enumerate(style.links, 1) if name in owners and number_of(name) != name}
     zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
+    unnamed = [panel[0] for panel in sets if len(panel) == 1 and not _is_on_axis(panel, style)]
     remarks = [
         translate("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
-        *(_meant(panel[0], style) for panel in sets if len(panel) == 1 and not _is_on_axis(panel, style)),
+        *(
+            f"{math_symbol(quantity.symbol(style.language))} – {plain(quantity.label(style.language))}"
+            for quantity in unnamed
+        ),
         remark,
         *key_of_links(known, known, style.language),
     ]
@@ -720,11 +718,6 @@ def _is_on_axis(quantities: Sequence[Quantity], style: Style) -> bool:
     """Return whether the title of the axis says what the curves are: all of one kind, whose name is not too long."""
     kinds = {key_of(row.key).quantity for row in quantities}
     return len(kinds) == 1 and len(quantities[0].label(style.language)) <= _LONG
-
-
-def _meant(quantity: Quantity, style: Style) -> str:
-    """Return what the symbol of a quantity means, whose name is too long for an axis."""
-    return f"{math_symbol(quantity.symbol(style.language))} – {plain(quantity.label(style.language))}"
 
 
 def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style) -> list[Row]:
@@ -803,15 +796,10 @@ def drawn_keys(compared: Comparison) -> list[str]:
     """Return the columns that a figure shows; of several links or sliders the last, which others move."""
     selected = []
     for kinds in _DRAWN:
-        keys = {
-            key_of(key).quantity: key for key in compared.keys if np.any(compared.columns[_own_curves(compared, key)])
-        }
+        own = {key: compared.columns[comparison_key(key, compared.names[0])] for key in compared.keys}
+        keys = {key_of(key).quantity: key for key, values in own.items() if np.any(values)}
         selected += [keys[kind] for kind in kinds if kind in keys][:1]
     return selected
-
-
-def _own_curves(compared: Comparison, key: str) -> str:
-    return comparison_key(key, compared.names[0])
 
 
 def _looks(names: tuple[str, ...]) -> list[tuple[str, Dashes, str]]:

@@ -15,6 +15,7 @@ from crankwork.analysis.stages import stage_diagrams
 from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities.key import key_of
+from crankwork.quantities.quantity import number_of
 from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
 from crankwork.show.canvas import WIDER, Canvas, current_layout, plain, points_per_mm, text_width
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, true_slices
@@ -312,7 +313,11 @@ def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array |
     for name, (across, up, _) in drawn.items():
         sizes = (across.min(), across.max(), up.min(), up.max(), *_moments(across, up))
         equal.setdefault(tuple(round(float(size), 6) + 0.0 for size in sizes), []).append(name)
-    rows = [Row(", ".join(names), STYLES[k % 4]) for k, names in enumerate(equal.values())] if len(drawn) > 1 else []
+    rows = (
+        [Row(", ".join(map(number_of, names)), STYLES[k % 4]) for k, names in enumerate(equal.values())]
+        if len(drawn) > 1
+        else []
+    )
     paper, box = sheet(259.0, rows)
     x, y = (limits(*values, margin=0.05) for values in list(zip(*drawn.values(), strict=True))[:2])
     graph = Graph(paper, box, x, y, style.language)

@@ -188,7 +188,10 @@ def indicator_brix(machine: Drawn) -> Drawing:
     right = Graph(paper, place, (0.0, machine.cycle), ends, machine.language, "crank_angle")
     paper.height = TOP + left.box.height + BOTTOM + max(wide / 2, _LOOP) + _MARGIN
     ticks = left.up_ticks
-    titles = [_short(machine.title(key), graph) for key, graph in (("cylinder_volume", left), ("crank_angle", right))]
+    named = ((machine.title(key), graph) for key, graph in (("cylinder_volume", left), ("crank_angle", right)))
+    # symbol and unit alone where the words are wider than the axis
+    titles = [title if text_width(title, 8.0) * WIDER <= graph.box.width + _NUMBER else title[title.index("$") :]
+              for title, graph in named]  # fmt: skip
     marks = _half_circle(machine, left)
     volumes = round_ticks(0.0, reach, max(2, min(6, int(wide / _NUMBER))))
     _clear(left, volumes, titles[0], machine)
@@ -213,11 +216,6 @@ def indicator_brix(machine: Drawn) -> Drawing:
     below = ChartBox(place.left + clear, foot, right.box.width - clear, max(wide / 2, _LOOP))
     gas_exchange(machine, paper, below, volume, pressure)
     return paper.drawing(figure_title("indicator_brix", machine.language), machine.language)
-
-
-def _short(title: str, graph: Graph) -> str:
-    """Return the title of an axis, its symbol and unit alone where the words are wider than the axis."""
-    return title if text_width(title, 8.0) * WIDER <= graph.box.width + _NUMBER else title[title.index("$") :]
 
 
 def _clear(graph: Graph, ticks: Array, title: str, machine: Drawn) -> None:

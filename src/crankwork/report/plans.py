@@ -179,7 +179,7 @@ def _figure(
     side = current_layout().width - (_LIST_WIDTH if has_list else 0.0)
     rows = [] if position is not None else [
         *_rows(plan.vectors if by_turns else seen, plan, kind, language, all_turning=by_turns),
-        *_link_names(style, plan),
+        *key_of_links(dict(enumerate(style.links, start=1)), plan.turning, style.language),
     ]  # fmt: skip
     # long names stand beside the outermost ends, those of one end together
     ends: dict[tuple[float, ...], str] = {}
@@ -221,10 +221,6 @@ def _figure(
         write_remark(paper, _remark(plan, kind, language))
     _nodes(graph, plan, kind.pole, unit)
     return paper.drawing(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
-
-
-def _link_names(style: Style, plan: VectorPolygon) -> list[str]:
-    return key_of_links(dict(enumerate(style.links, start=1)), plan.turning, style.language)
 
 
 def _remark(plan: VectorPolygon, kind: _Kind, language: Language) -> str:

@@ -170,10 +170,12 @@ class _Writer:
                     "line": {"width": 1.5},
                 })  # fmt: skip
             ends = table.columns[along]
-            across = unit_name(table.units[along], self._language)
+            across, span = unit_name(table.units[along], self._language), float(ends[-1] - ends[0])
+            is_marked = along == "crank_angle" and span >= 180.0
+            steps = {"major_unit": 90.0 if span > 360.0 else 30.0} if is_marked else {}
             chart.set_x_axis({
                 "name": f"{label(along, self._language)}, {across}", "label_position": "low",
-                "min": float(ends[0]), "max": float(ends[-1]), **_steps(along, float(ends[-1] - ends[0])),
+                "min": float(ends[0]), "max": float(ends[-1]), **steps,
             })  # fmt: skip
             chart.set_y_axis({"name": unit_name(unit, self._language), "major_gridlines": {"visible": True}})
             chart.set_legend({"position": "bottom"})
@@ -332,11 +334,6 @@ def _number_format(values: Array | Sequence[float]) -> str:
         return "0.0000E+00"
     decimals = max(0, min(_DIGITS, _DIGITS - 1 - math.floor(math.log10(largest))))
     return "0." + "0" * decimals if decimals else "0"
-
-
-def _steps(along: str, span: float) -> Mapping[str, float]:
-    """Return the distance of the marks on an axis of crank angles."""
-    return {"major_unit": 90.0 if span > 360.0 else 30.0} if along == "crank_angle" and span >= 180.0 else {}
 
 
 def _sheet_name(title: str, taken: set[str]) -> str:

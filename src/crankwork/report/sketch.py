@@ -107,8 +107,9 @@ def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = Non
         return sketch
     scale = round_scale(displayed("piston_force", largest) / _LONGEST)
     corners, parts = [sketch.low[None], sketch.high[None]], list(sketch.parts)
-    taken = [] if frame is None else [extent(item) for body in parts for item in body.at(_of(body, frame))
-                                      if isinstance(item, Text | Circle)]  # fmt: skip
+    # what does not move has one row
+    seen = () if frame is None else (item for body in parts for item in body.at(frame if len(body.shift) > 1 else 0))
+    taken = [extent(item) for item in seen if isinstance(item, Text | Circle)]
     taken += _rotation(sketch.items)
     for arrow in arrows:
         length = displayed("piston_force", 1.0) * arrow.force / scale
@@ -139,11 +140,6 @@ def _rotation(items: Sequence[Item]) -> Iterator[ChartBox]:
         if isinstance(arc, Polyline) and isinstance(head, Polyline) and head.fill == 0.0:
             pieces = [*map(line, arc.points, arc.points[1:]), head]
             yield from (extent(piece).inset(-_FREE, -_FREE, -_FREE, -_FREE) for piece in pieces)
-
-
-def _of(part_: Part, frame: int) -> int:
-    """Return the row of the track of a part at a frame."""
-    return frame if len(part_.shift) > 1 else 0
 
 
 def _place_near_tip(text: Text, tip: Array, ahead: Array, taken: Sequence[ChartBox]) -> tuple[Array, ChartBox]:
@@ -232,16 +228,13 @@ def dimension_lines(
     busy, items = np.vstack([obstacles, *points.values(), *links]), list[Item]()
     for length in lengths:
         start, end = points[length.start], points[length.end]
-        if np.hypot(*_along(length, start, end)) < _SHORTEST_LINE:
+        along = end - start if length.axis is None else (end - start) * np.eye(2)[length.axis]
+        if np.hypot(*along) < _SHORTEST_LINE:
             continue
         p, q = min(_choices(length, start, end, busy), key=lambda ends: _crowding(ends[0], ends[1], busy))
         busy = np.vstack([busy, p + _PLACES * (q - p)])
         items += _drawn(length, (start, end), (p, q))
     return items, busy
-
-
-def _along(length: Length, start: Array, end: Array) -> Array:
-    return end - start if length.axis is None else (end - start) * np.eye(2)[length.axis]
 
 
 def _choices(length: Length, start: Array, end: Array, busy: Array) -> Iterator[tuple[Array, Array]]:

@@ -148,11 +148,8 @@ def comparison_text(results: Results, language: Language = "en", *, per_area: bo
         unit = unit_name(key_unit(key, per_area=per_area), language)
         name = label(display_key(key, results) if key in results.trace else key, language)
         table.append([name, unit, *(_NONE if math.isnan(value) else number(value, language) for value in values)])
-    return "\n".join([translate(_heading(compared), language), *_aligned(table)])
-
-
-def _heading(compared: Comparison) -> str:
-    return "report.methods_compared" if compared.is_of_methods else "report.machines_compared"
+    heading = "report.methods_compared" if compared.is_of_methods else "report.machines_compared"
+    return "\n".join([translate(heading, language), *_aligned(table)])
 
 
 def _aligned(table: list[list[str]]) -> list[str]:

@@ -97,15 +97,12 @@ def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> 
 
 def inline_film(film: Animation, name: str) -> str:
     """Return an animation as an SVG element that is at rest until the page moves its parts."""
-    drawn, height = _element(film.ground, name, film.about, film_body(film, _written)), film.ground.height
+    body = film_body(film, lambda items, height: _InlineWriter(height, {}).written(items))
+    drawn, height = _element(film.ground, name, film.about, body), film.ground.height
     near = ChartBox(0.0, 0.0, film.ground.width, height).inset(*[_EDGE] * 4)
     boxes = near, film.covered or near
     views = [f"{box.left:.1f} {height - box.top:.1f} {box.width:.1f} {box.height:.1f}" for box in boxes]
     return re.sub(r'viewBox="[^"]*"', f'viewBox="{views[0]}" data-whole="{views[1]}"', drawn, count=1)
-
-
-def _written(items: tuple[Item, ...], height: float) -> Iterator[str]:
-    return _InlineWriter(height, {}).written(items)
 
 
 def _element(drawing: Drawing, name: str, about: str, written: Iterable[str], size: str = "3") -> str:

@@ -334,15 +334,11 @@ def in_grid(
         row = list(zip(drawings[start : start + columns], inks[start : start + columns], strict=True))
         high = max(ink.height for _, ink in row) + (_NAMES if place.is_rough else 0.0)
         for index, (drawing, ink) in enumerate(row):
-            right, up = _middle(ink, wide * (index + 0.5), foot - high / 2)
+            right = wide * (index + 0.5) - ink.left - ink.width / 2
+            up = foot - high / 2 - ink.bottom - ink.height / 2
             items += [moved(item, right, up) for item in drawing.items]
         foot -= high + _BETWEEN
     items = [moved(item, 0.0, -foot) for item in items]
     if text := remark():
         items.append(Text((wide * columns / 2, 2.0 - foot), text, TEXT, "middle"))
     return Drawing(title, language, wide * columns, -foot, tuple(items))
-
-
-def _middle(ink: ChartBox, x: float, y: float) -> tuple[float, float]:
-    """Return the shift that moves the middle of a box to a place. [mm]"""
-    return x - ink.left - ink.width / 2, y - ink.bottom - ink.height / 2

@@ -16,7 +16,7 @@ from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
 from crankwork.analysis.vector_polygons import accelerations, driver_rates, position_step, velocities
 from crankwork.locale import decimal, translate
 from crankwork.locale.numbers import number, unit_name
-from crankwork.mechanism.structure import Structure, structure
+from crankwork.mechanism.structure import ROMAN, Structure, structure
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.sheet import Column, numbers, table, text_block
 from crankwork.note.wording import named
@@ -34,7 +34,6 @@ from crankwork.show.scene import Drawing
 _DENSE_STEP = 1.0
 # which positions get an acceleration plan
 _ACCELERATIONS = (1, 5, 9)
-_CLASSES = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 # points whose plans are compared, and what a reading on paper is rounded to [mm]
 _MOST_COMPARED, _READING = 3, 1
 # of the largest velocity or acceleration of a table, what is none
@@ -147,7 +146,7 @@ def structure_block(data: Positions, analysed: Structure) -> Drawing:
     entries = [
         f"${symbol('mobility', language)}$ = 3$n$ − 2$p_5$ − $p_4$ = {sum_} = {analysed.mobility}",
         f"{analysed.formula.replace('->', '→')}",
-        f"{translate('columns.class', language)}: {_CLASSES[min(analysed.number, len(_CLASSES) - 1)]}",
+        f"{translate('columns.class', language)}: {ROMAN[min(analysed.number, len(ROMAN) - 1)]}",
     ]
     speed = results.solved.speed
     if speed and not data.style.period:
@@ -243,8 +242,11 @@ def compared_table(data: Positions, scales: Scales, rows: Sequence[int]) -> Draw
     shown: list[Column] = []
     for sign, key, unit in (("v", "point_velocity", "m/s"), ("a", "point_acceleration", "m/s2")):
         exact = [float(data.columns[f"{key}.{name}"][position]) for position, name in lines]
-        ends = [_read(value, scales.of(sign, position)) for value, (position, _) in zip(exact, lines, strict=True)]
-        plans = [end * scales.of(sign, position) for end, (position, _) in zip(ends, lines, strict=True)]
+        known = [scales.of(sign, position) for position, _ in lines]
+        # as they are read on paper [mm]
+        ends = [round(value / scale, _READING) if math.isfinite(scale) else 0.0
+                for value, scale in zip(exact, known, strict=True)]  # fmt: skip
+        plans = [end * scale for end, scale in zip(ends, known, strict=True)]
         # values that are very small against the others have no relative difference
         least = _ZERO_TOLERANCE * max(exact, default=0.0)
         off = [100 * (drawn - calculated) / calculated if calculated > least else math.nan
@@ -267,8 +269,3 @@ def _share(value: float, language: Language) -> str:
     """Return a share to a hundredth of a percent, as lengths are read to a tenth of a millimetre."""
     shown = f"{value:.2f}".replace("-0.00", "0.00")
     return decimal(shown, language).replace("-", "−") if math.isfinite(value) else "–"
-
-
-def _read(value: float, scale: float) -> float:
-    """Return the length of a vector as it is read on paper. [mm]"""
-    return round(value / scale, _READING) if scale == scale else 0.0  # noqa: PLR0124 - not a number

@@ -425,7 +425,7 @@ def _written(text: str, box: ChartBox, most: float, angle: float = 0.0) -> list[
     )
     broken = ((size, wide, _broken(text, room / wide, size)) for size, wide in tried)
     height, wide, rows = next(
-        (candidate for candidate in broken if candidate[2] and _tall(candidate[2], candidate[0]) <= high),
+        (each for each in broken if each[2] and each[0] * (_STEP * (len(each[2]) - 1) + 1.3) <= high),
         (SMALL, _NARROWEST, _cut(text, room / _NARROWEST, high)),
     )
     step, middle = _STEP * height, box.left + box.width / 2
@@ -439,10 +439,6 @@ def _written(text: str, box: ChartBox, most: float, angle: float = 0.0) -> list[
 def _width(text: str, height: float) -> float:
     """Return the largest width of a text in the letters of a reader. [mm]"""
     return _READERS * text_width(text, height)
-
-
-def _tall(rows: list[str], height: float) -> float:
-    return _STEP * height * (len(rows) - 1) + 1.3 * height
 
 
 def _broken(text: str, room: float, height: float) -> list[str]:
