@@ -340,7 +340,8 @@ EXCEPTIONS = {
     r"torsion\.(discs|shafts|throw_shaft).*\.(damping|loss_factor)": "the first one makes damped modes",
     r"cycle\.kind": "the other kinds need other keys, and assigned ones differ by the corners that a school rounds",
     r"engine\.layout": "of few cylinders two layouts are one engine",
-    r"motor\.(frequency|pole_pairs)": "of a motor that stalls another speed may make it turn",
+    r"efficiency\.decimals": "more decimals than a product has",
+    r"motor\.(frequency|pole_pairs|overload|ratio|rated_.*)": "of a motor that stalls another speed may make it turn",
     r".*\.pieces\[\d+\]\.law": "between points of equal pressure all laws are one line",
     r".*\.points\..*\.pressure": "that of the last point must agree with the first",
 }

@@ -275,7 +275,9 @@ def differences(engine: Results, form: Results, limit: float = 1e-9, shares: Sha
                 continue
             found += [f"{kind} {key}: {own[key]} is {other[key]}"] if far.any() else []
     found += [f"check {key}" for key in engine.checks.keys() ^ form.checks.keys()]
-    found += [f"notice {code}" for code in (_codes(engine) ^ _codes(form)) - _OF_SHORTHAND]
+    # where a linkage has no gas nothing says that it is an engine
+    alike = _OF_SHORTHAND | ({"implausible"} if form.machine.lengths is None else set())
+    found += [f"notice {code}" for code in (_codes(engine) ^ _codes(form)) - alike]
     return found + [
         f"check {key}: {value}" for key, value in form.checks.items() if value > form.allowed.get(key, limit)
     ]

@@ -363,6 +363,28 @@ balance.rotating_share = 0.5
     assert mistold(text, ROOT) == []
 
 
+def test_what_the_rest_of_a_file_leaves_without_use_is_told():
+    masses = 'masses = [{ mass = "9 kg", radius = "4 mm", angle = "0 deg", position = "0 mm" }]'
+    wheel = 'percent = 2, radius_of_gyration = "0.7 m"'
+    rows = '"0 deg", "90 deg", "180 deg", "270 deg"'
+    body = 'bodies.arm = { mass = "6 kg", inertia = "1 kg*m2", rotation = [0.1, 0.3, 0.2, -0.4] }'
+    for text, path in (
+        (f'crank = {{}}\nrotor = {{ bearings = ["0 mm", "9 mm"], {masses} }}', "rotor.bearings[2]"),
+        (
+            f'crank.speed = "300 rpm"\ntorque = {{ period = "360 deg", constant = "7 N*m" }}\nflywheel = {{ {wheel} }}',
+            "flywheel.radius_of_gyration",
+        ),
+        (f'crank.speed = "300 rpm"\ntransfer = {{ angles = [{rows}], {body} }}', "transfer.bodies.arm.mass"),
+        (template("engine").replace("bore =", 'piston_rod_diameter = "20 mm"\nbore ='), "cylinder.piston_rod_diameter"),
+    ):
+        assert path in idle(analyse(read_machine(text)))
+    shaper = template("crank-shaper") + '[flywheel]\npercent = 2\n[efficiency]\nchain = [0.9]\nlosses = "machine"\n'
+    mean = analyse(read_machine(shaper.replace('"machine"', '"drive"'))).summary["flywheel_inertia"]
+    # losses take more of the torque where it is greater
+    assert analyse(read_machine(shaper)).summary["flywheel_inertia"] > mean
+    assert "efficiency.losses" not in idle(analyse(read_machine(shaper)))
+
+
 def test_pressures_listed_against_the_rotation_are_those_listed_backwards():
     text = MACHINES["burning"]
     begins, ends = text.index("values = [") + 10, text.index("]", text.index("values = ["))

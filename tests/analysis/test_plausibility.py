@@ -7,6 +7,7 @@ import pytest
 
 from crankwork import Description, analyse, template
 from crankwork.description.machine_file import read_machine
+from crankwork.description.shorthand import expanded
 from crankwork.report.notices import notice_text
 from expansions import ROOT, machine_files
 from machine_texts import POINTS_ENGINE
@@ -48,6 +49,16 @@ def test_a_value_beyond_what_is_built_is_told_with_its_range(key, value, quantit
         source = f"({notice.values['source']})" if notice.values["source"] else OWN[language]
         assert source in notice_text(notice.code, notice.values, language)
         assert "{" not in notice_text(notice.code, notice.values, language)
+
+
+def test_a_notice_on_an_expanded_file_is_that_of_the_engine_with_its_own_keys(tmp_path):
+    (tmp_path / "engine.toml").write_text(template("engine"), "utf-8")
+    settings = ["rod.ratio=0.6", "piston.mass=1050 g/cm2", "cylinder.bore=900 mm", "cycle.intake_pressure=0.115 kPa"]
+    written = Description(expanded(tmp_path / "engine.toml", settings))
+    notices = [item.values for item in analyse(written).notices if item.code in CODES]
+    engine = analyse(read_machine(template("engine"), overrides=settings))
+    assert {values["quantity"] for values in notices} == told(engine)
+    assert {values["path"] for values in notices} <= set(written)
 
 
 def test_a_firing_order_with_avoidable_moments_is_told_with_a_better_one():

@@ -23,7 +23,7 @@ WRONG = [
     (OVER * 3, "--over: a map has one or two numbers"),
     (OVER * 2, "--over crank.speed: stands twice; keep one of them"),
     (("--over", "crank.speed=1..2rpm:0"), "--over: take from 1 to 200 steps"),
-    (("--over", "crank.speed=2..1rpm"), "the range from 2rpm to 1rpm is empty"),
+    (("--over", "crank.speed=2..1rpm"), "--over crank.speed: the range from 2rpm to 1rpm is empty"),
     (("--over", "rod.length=1..2mm"), "there is no machine anywhere in the range: the rod"),
     ((), "--over: is missing; write --over KEY=FROM..TO"),
     ((*OVER, "--workers", "0"), "--workers: "),

@@ -41,7 +41,7 @@ RATIO = ("--for", "rod.ratio", "--from", "nan", "--to", "1")
 WRONG = [
     ((ENGINE[0],), "--for: is missing; write --for KEY, see --help"),
     ((*ENGINE, "--from", "5 rpm", "--to", "5 rpm"), "the range from 5 rpm to 5 rpm is empty"),
-    ((*ENGINE, "--from", "500", "--to", "5 rpm"), "is empty; give --from a value below that of --to"),
+    ((*ENGINE, "--from", "500", "--to", "5 rpm"), "is empty; write the smaller number first"),
     ((*ENGINE, "--from", "5 mm", "--to", "9 rpm"), '--from: unit "mm" measures length; speed is wanted'),
     ((*ENGINE, "--from", "slow", "--to", "9 rpm"), '--from: "slow" is not a number with a unit'),
     ((*ENGINE, "--from", "-3 rpm", "--to", "9 rpm"), "--from: crank.speed is from"),

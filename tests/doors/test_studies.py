@@ -55,6 +55,8 @@ WRONG = {
     "limits that leave nothing": (
         "at_most", 'at_least = "15 m/s", at_most', ":13: limits.piston_velocity_max: at_least is above at_most",
     ),
+    "no such limit": ("{ at_most", "{ at_mots", ":13: limits.piston_velocity_max.at_mots: unknown key; did you mean"),
+    "no limit": ('{ at_most = "14 m/s" }', "{}", ":13: limits.piston_velocity_max: is missing; write at_most"),
     "no machine": ("machine.toml", "nothing.toml", ":1: machine: "),
 }  # fmt: skip
 

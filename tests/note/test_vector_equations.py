@@ -8,7 +8,10 @@ import pytest
 from crankwork.analysis.vector_polygons import worked_position
 from crankwork.locale import LANGUAGES, texts
 from crankwork.note.document import Equation, Figure, Heading, Paragraph, Table
+from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of
 from each import for_each
+from machine_texts import analysed
 from notes import blocks, note, results, tables, words
 
 CASES = ["press-geometry", "crank-shaper", "toggle-press"]
@@ -48,6 +51,11 @@ def test_the_printed_vectors_of_an_equation_add_up(name):
             total = sum(known.get(part, 0.0) for part in right.split(" + "))
             # angles are printed to a tenth of a degree, values to four digits
             assert abs(total - known.get(left, 0.0)) < 3e-3 * largest, (left, right)
+
+
+def test_a_crank_alone_has_no_vector_equations():
+    text = 'fixed_points.O = ["0 mm", "0 mm"]\ncrank = { pivot = "O", pin = "A", radius = "1 m", speed = "9 rpm" }'
+    assert "plan_velocities" not in tables(note_of(analysed(text), NoteOptions(full=True)))
 
 
 @for_each("name", CASES)

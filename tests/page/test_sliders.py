@@ -320,6 +320,17 @@ def test_a_slider_stops_where_the_machine_does_and_says_why():
     assert len(document("loop", "vi").encode()) < 400_000
 
 
+def test_work_that_is_rounding_keeps_no_slider_from_moving():
+    # a pressure that does not change does no work in a cycle
+    description = crankwork.Description({
+        "crank": {"radius": "50 mm", "speed": "300 rpm"}, "rod": {"length": "200 mm"},
+        "cylinder": {"bore": "100 mm"}, "gas": {"pressure": "20 bar"},
+    })  # fmt: skip
+    stated = crankwork.analyse(description.machine())
+    both = moved(description, ["gas.pressure", "crank.radius"], (), stated)
+    assert written(stated, "en", None, both)
+
+
 def test_a_machine_that_turns_back_is_refused():
     swings = crankwork.Description(crankwork.template("four-bar").replace('"62.5 mm"', '"100 mm"'))
     with pytest.raises(crankwork.CrankworkError, match="turns back at dead positions"):

@@ -81,11 +81,12 @@ def analyse(
     used = method or machine.method
     engine = _engine_of(machine, used)
     results = _analysed(engine or machine, grid, method, progress)
+    results = results if engine is None else _located(results, machine)
     stated = tuple(Notice(*notice) for notice in machine.notices)
     other = partial(_in_other_form, machine, results.grid, used, is_engine=engine is not None)
-    notices = (*stated, *results.notices, *implausible(results))
-    results = replace(results, notices=notices, in_other_form=other)
-    return results if engine is None else _located(results, machine)
+    notices = (*stated, *results.notices, *implausible(results, machine.stated))
+    notices = notices if engine is None else tuple(_moved(notice, machine) for notice in notices)
+    return replace(results, notices=notices, in_other_form=other)
 
 
 def _with_linkage(machine: Machine) -> Machine:
@@ -124,6 +125,18 @@ def _located(results: Results, machine: Machine) -> Results:
 
     relocate(results.trace.values(), linkage_paths(machine))
     return results
+
+
+def _moved(notice: Notice, machine: Machine) -> Notice:
+    """Return a notice of the engine that a linkage is, with the path at which the linkage states what it names."""
+    from crankwork.preparation.cell_gas import linkage_paths, relocated  # noqa: PLC0415 - loaded where it is needed
+
+    if "path" not in notice.values:
+        return notice
+    path = relocated(str(notice.values["path"]), linkage_paths(machine))
+    # a chamber with one face may state the keys of the face itself
+    flat = path.replace(".faces[1]", "")
+    return notice._replace(values={**notice.values, "path": flat if flat in machine.stated else path})
 
 
 def _in_other_form(machine: Machine, grid: CrankGrid, method: Method, *, is_engine: bool) -> Results | None:

@@ -99,7 +99,7 @@ def _left_out(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Ass
     """Yield effects that are not included."""
     machine = results.machine
     has_forces = any(key.startswith(("joint_force", "piston_force")) for key in results.columns)
-    if _has_mass(results) and not _has_weights(results):
+    if _has_mass(results) and not _has_weights(results) and machine.method.gravity:
         yield Assumption("no_weights", ("method.weights",))
     if has_forces and not machine.friction and machine.drive.efficiency == 1.0:
         yield Assumption("no_friction", ("friction", "efficiency"))
@@ -212,8 +212,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"loads\[\d+\]\.stroke", lambda *_: True),
     (r"loads\[\d+\]\.(curve|against)", lambda _, stated, path: f"{path.rpartition('.')[0]}.at[3]" in stated),
     (r"transient\.until", lambda *_: False),
-    (r"transfer\.bodies\..*\.mass", lambda _, stated, path: f"{path.removesuffix('mass')}velocity[1]" in stated),
-    (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
+    (r"transfer\.bodies\..*\.(mass|inertia)", lambda *known: not _idle_body(*known)),
     (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path, stated, results)),
     (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing.peak", stated, results)),
     (r"motor_selection\.\w+", _needs_motor),
@@ -222,9 +221,9 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
     (r"torsion\.modulus", lambda results, *_: "torsion.modulus" in leaves(results)),
     # undamped modes have no damping
-    (r"torsion\.(orders|.*\.(damping|loss_factor))", lambda results, _, path: any(
-        key.startswith("vibration_amplitude") for key in results.summary)
-        or ("damped_modes" in results.listings and path != "torsion.orders")),
+    (r"torsion\.orders", lambda results, *_: _counts_orders(results)),
+    (r"torsion\..*\.(damping|loss_factor)", lambda results, *_: _vibrates(results)
+     or "damped_modes" in results.listings),
     (r"friction\.circle|balance\.rotating_share|.*\.strokes\[\d+\]\.(shape|peak)",
      lambda results, stated, path: not _idle(path, stated, results, ())),
 )  # fmt: skip
@@ -286,12 +285,38 @@ def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace
     if rule is not None:
         return rule(results, stated, path)
     number = results.machine.stated.get(path)
-    if number is None or not number.value or _FACE.sub("", path) in in_trace or not _TRACED.fullmatch(path):
+    if (
+        number is None
+        or not (number.value or path == "method.gravity")
+        or _FACE.sub("", path) in in_trace
+        or not _TRACED.fullmatch(path)
+    ):
         return ""
     if path == "method.gravity" and any(notice.code == "weight" for notice in results.notices):
         # makes masses of weights
         return ""
     return "weights_off" if path == "method.gravity" and not _has_weights(results) else "unused"
+
+
+def _vibrates(results: Results) -> bool:
+    return any(key.startswith("vibration_amplitude") for key in results.summary)
+
+
+def _counts_orders(results: Results) -> bool:
+    return _vibrates(results) or "critical_speeds" in results.listings
+
+
+def _idle_body(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    """The mass of a body moves by a velocity, its inertia by a rotation."""
+    table, name = path.rsplit(".", 1)
+    return "" if f"{table}.{'velocity' if name == 'mass' else 'rotation'}[1]" in stated else "unused"
+
+
+def _idle_losses(results: Results, *_: object) -> str:
+    """They count with friction, and with a flywheel where a torque varies."""
+    machine, torque = results.machine, results.trace.get("static_torque")
+    has_wheel = machine.drive.fluctuation is not None or machine.drive.wheel is not None
+    return "" if machine.friction or (has_wheel and torque is not None and torque.varies) else "unused"
 
 
 def _idle_wheel(results: Results, *_: object) -> str:
@@ -449,6 +474,10 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"(fixed_points|guides)\..*", _idle_place),
     (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
     (r"flywheel\.(fluctuation|percent)", _idle_wheel),
+    (r"flywheel\.(radius_of_gyration|rim\..*)", lambda results, *_: _idle_wheel(results)
+     if results.machine.drive.fluctuation is not None else ""),
+    (r"cylinder\.piston_rod_diameter", lambda results, stated, _: ""
+     if "gas.back_pressure" in stated or results.machine.test is not None else "unused"),
     # places of the links of one that is drawn turn with it
     (r"cylinder\.inclination", lambda known, *_: "" if known.machine.linkage or _has_weights(known) else "weights_off"),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
@@ -459,7 +488,12 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"(torque|load)\.strokes\[\d+\]\.(shape|peak)", _idle_shape),
     (r"balance\.rotating_share",
      lambda known, *_: "" if _mass_of(known, "crank", "rod_big_end") else "no_rotating_mass"),
-    (r"efficiency\.losses", lambda results, *_: "" if results.machine.friction else "unused"),
+    (r"efficiency\.losses", _idle_losses),
+    (r"transfer\.bodies\..*\.(mass|inertia)", _idle_body),
+    (r"torsion\.orders", lambda results, *_: "" if _counts_orders(results) else "unused"),
+    (r"torsion\.reference_diameter", lambda results, _, path: "" if path in leaves(results) else "unused"),
+    (r"rotor\.bearings.*", lambda known, *_: "" if any(key.startswith("bearing_load") for key in known.trace)
+     else "unused"),
     (r"method\.rod", lambda known, stated, _: "" if not _is_engine(stated) or _mass_of(known, "rod_inertia_excess")
      else "unused"),
     (r"method\.inertia_rod_ratio", lambda _, stated, __: "" if _is_engine(stated) else "unused"),
@@ -474,7 +508,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
 
 def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) -> str:
     """Return why an event of the valves has no effect in a calculated cycle; empty if it has."""
-    table, _, name = path.rpartition(".")
+    table, name = path.rsplit(".", 1)
     cycle = table.removesuffix(".timing")
     kind, corners, school = (
         stated.get(f"{cycle}.{key}", FileInput(None)).value for key in ("kind", "corners", "school")
@@ -496,7 +530,7 @@ def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) ->
 
 def _idle_convention(path: str, stated: Mapping[str, FileInput], results: Results) -> str:
     """Return why a convention of rounding has no effect: without the event whose corner it rounds, or without room."""
-    table, _, name = path.rpartition(".")
+    table, name = path.rsplit(".", 1)
     event = "exhaust_opens" if name == "blow_down" else "ignition"
     if f"{table}.timing.{event}" not in stated or _idle_event(f"{table}.timing.peak", stated, results):
         return "sharp_corners"

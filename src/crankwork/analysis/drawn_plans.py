@@ -91,9 +91,9 @@ def constructed_plans(
 
 
 def is_constructed(mechanism: Mechanism) -> bool:
-    """Return whether a crank or a slider drives a linkage each group of which two lines solve."""
+    """Return whether a crank or a slider drives groups each of which two lines solve."""
     unsolved = (isinstance(group, Chain) or (isinstance(group, RPP) and group.guide.link) for group in mechanism.dyads)
-    return isinstance(mechanism.driver, Crank | DrivingSlider) and not any(unsolved)
+    return bool(mechanism.dyads) and isinstance(mechanism.driver, Crank | DrivingSlider) and not any(unsolved)
 
 
 def _plane(vector: Array) -> complex:

@@ -6,7 +6,7 @@ import functools
 import itertools
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from crankwork.analysis.results import Results
 from crankwork.cylinders.layout import Layout
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.loads.load import ProcessForce
-from crankwork.machine import Machine
+from crankwork.machine import InputNumber
 from crankwork.preparation.prepared import Notice
 
 
@@ -39,7 +39,7 @@ _POSITIVE = ("effective_torque", "effective_power", "indicated_power", "heat_res
 _OWN = ""
 _RESULTS = (
     _Range("mean_piston_speed", 0.0, 30.0, "heywood_1988", ("crank.speed",)),
-    _Range("rod_ratio", 0.08, 0.45, "kolchin_demidov_2008", ("rod.ratio", "rod.length")),
+    _Range("rod_ratio", 0.08, 0.45, "kolchin_demidov_2008", ("rod.length", "rod.ratio")),
     _Range("gas_pressure_max", 0.0, 35e6, _OWN, ("gas.points", "gas", "cycle", "cylinder.compression_ratio")),
     _Range("speed_fluctuation", 0.0, 0.5, "khurmi_gupta_2005", ("flywheel",)),
 )
@@ -52,7 +52,7 @@ _ROD = _Range("mass_per_area.of_rod", 10.0, 4000.0, "kolchin_demidov_2008", ("ro
 _STATED = {
     r"rod\.small_end_share": _Range("small_end_share", 0.1, 0.6, "kolchin_demidov_2008"),
     r"(gas\.points\.[^.]+|(chambers\..+\.)?cycle)\.(\w+_)?pressure": _Range("gas_pressure", 1e4, 1e8, _OWN),
-    r"chambers\.(.*[._])?temperature": _Range("cylinder_temperature", 50.0, 4000.0, _OWN),
+    r"(chambers|gas|cycle)\.(.*[._])?temperature": _Range("cylinder_temperature", 50.0, 4000.0, _OWN),
 }
 # time of the slower stroke over that of the faster one
 _CLEARLY_FASTER = 1.1
@@ -60,34 +60,34 @@ _CLEARLY_FASTER = 1.1
 _MOST_ORDERS, _BETTER, _ZERO = 6, 2.0, 1e-9
 
 
-def implausible(results: Results) -> Iterator[Notice]:
-    """Yield a notice for each value far outside normal design."""
+def implausible(results: Results, stated: Mapping[str, InputNumber]) -> Iterator[Notice]:
+    """Yield a notice for each value far outside normal design; `stated`: numbers of the file by path."""
     machine = results.machine
-    yield from _impossible(results)
+    yield from _impossible(results, stated)
     yield from _fast_work(results)
     file = machine.inputs() if machine.inputs is not None else None
     is_gauge = file is None or "gas.pressures" not in file.stated or file.stated["gas.pressures"].value == "gauge"
-    for path, number in machine.stated.items():
+    for path, number in stated.items():
         usual = next((usual for pattern, usual in _STATED.items() if re.fullmatch(pattern, path)), None)
-        if usual is not None and not (is_gauge and path.startswith("gas.")):
-            yield from _outside(usual._replace(keys=(path,)), number.value, machine)
+        if usual is not None and not (is_gauge and path.startswith("gas.points")):
+            yield from _outside(usual._replace(keys=(path,)), number.value, stated)
     if machine.lengths is None:
         return
     for usual in _RESULTS:
-        yield from _outside(usual, results.summary.get(usual.quantity), machine)
-    yield from _outside(_WANTED, machine.drive.fluctuation, machine)
+        yield from _outside(usual, results.summary.get(usual.quantity), stated)
+    yield from _outside(_WANTED, machine.drive.fluctuation, stated)
     if machine.cylinder is not None:
-        yield from _outside(_STROKE, 2 * float(machine.lengths[0]) / machine.cylinder.bore, machine)
+        yield from _outside(_STROKE, 2 * float(machine.lengths[0]) / machine.cylinder.bore, stated)
         area, masses = math.pi / 4 * machine.cylinder.bore**2, machine.masses
         if masses is not None:
             rod = masses.rod_small_end + masses.rod_big_end
-            yield from _outside(_PISTON, masses.piston / area or None, machine)
-            yield from _outside(_ROD, rod / area or None, machine)
-    if machine.engine is not None and "engine.throws[1]" not in machine.stated:
+            yield from _outside(_PISTON, masses.piston / area or None, stated)
+            yield from _outside(_ROD, rod / area or None, stated)
+    if machine.engine is not None and "engine.throws[1]" not in stated:
         yield from _doubtful_order(machine.engine.layout)
 
 
-def _impossible(results: Results) -> Iterator[Notice]:
+def _impossible(results: Results, stated: Mapping[str, InputNumber]) -> Iterator[Notice]:
     """Yield a notice for each efficiency above 1, and for what a test gives below 0."""
     low, reported = 0.0 if results.machine.test is not None else -math.inf, set[str]()
     for key in (*_POSITIVE, *_SHARES):
@@ -95,7 +95,7 @@ def _impossible(results: Results) -> Iterator[Notice]:
         if value < low or (key in _SHARES and value > 1 + _ZERO):
             made_of = tuple(in_order([results.trace[key]]))
             paths = [known.node.path for known in made_of if isinstance(known.node, Input)]
-            keys = [path for path in dict.fromkeys(paths) if path in results.machine.stated]
+            keys = [path for path in dict.fromkeys(paths) if path in stated]
             # what follows from something impossible is so too
             if reported.isdisjoint(known.key for known in made_of):
                 yield Notice("impossible", {"quantity": key, "value": value, "keys": ", ".join(keys[:6])})
@@ -115,11 +115,11 @@ def _fast_work(results: Results) -> Iterator[Notice]:
                 yield Notice("fast_work", {"name": load.slider, "ratio": ratio, **keys})
 
 
-def _outside(usual: _Range, value: float | None, machine: Machine) -> Iterator[Notice]:
-    if value is None or usual.low <= value <= usual.high:
+def _outside(usual: _Range, value: float | None, stated: Mapping[str, InputNumber]) -> Iterator[Notice]:
+    if value is None or usual.low * (1 - _ZERO) <= value <= usual.high * (1 + _ZERO):
         return
     # of many points no single one is to blame
-    path = next((key for key in usual.keys if any(path.startswith(key) for path in machine.stated)), usual.keys[0])
+    path = next((key for key in usual.keys if any(path.startswith(key) for path in stated)), usual.keys[0])
     limits = {"low": usual.low, "high": usual.high}
     code = "implausible" if usual.source else "implausible_own"
     yield Notice(code, {"quantity": usual.quantity, "value": value, **limits, "path": path, "source": usual.source})

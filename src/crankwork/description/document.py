@@ -358,11 +358,12 @@ def kind_of(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - each kin
 
 def numeric_field(values: dict[str, Any], key: str, option: str = "--for") -> NumericField:
     """Return the number of a machine file that a key names; it must be continuous. `option`: what messages name."""
+    place = f"{option} {key[:60]}".lstrip()
     try:
         kind = kind_of(values, key)
     except UnknownKeyError as error:
         mistake = error.args[0]
-        message = ErrorMessage("option_wrong", option=f"{option} {key[:60]}".lstrip(), mistake=mistake)
+        message = ErrorMessage("option_wrong", option=place, mistake=mistake)
         raise UnknownKeyError(mistake if mistake.name == "key_form" else message) from None
     now = stated_value(values, key)
     kind, reader = single_kind(kind, now), Reader(decimal_comma=True)
@@ -376,8 +377,8 @@ def numeric_field(values: dict[str, Any], key: str, option: str = "--for") -> Nu
         case Number(low, high, whole=False):
             return NumericField(key, low, high, now=None if now is None else kind.read(now, key, reader))
         case Number():
-            raise CrankworkError(ErrorMessage("sought_counts", key=key))
-    raise CrankworkError(ErrorMessage("sought_no_number", key=key))
+            raise CrankworkError(ErrorMessage("sought_counts", place=place, key=key))
+    raise CrankworkError(ErrorMessage("sought_no_number", place=place))
 
 
 def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has its own type

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding_noise import rounding_of_values
 from crankwork.errors import CrankworkError
-from crankwork.formula.traced_value import Delayed, Input, ProcedureValue, TracedValue, in_order
+from crankwork.formula.traced_value import Delayed, FormulaCall, Input, ProcedureValue, TracedValue, in_order
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.javascript import Script
 from crankwork.kernel.lowering import DesignTraces, Lowering
@@ -220,6 +220,17 @@ class LivePage:
             return False
         self._used[key] = None
         return True
+
+    def _size(self, known: TracedValue) -> float:
+        """Return the size of what a single value is calculated from, to which its rounding is proportional."""
+        match known.node:
+            case ProcedureValue(operands=operands):
+                columns = [self._results[0].columns.get(operand.key, 0.0) for operand in operands]
+                return max((float(np.max(np.abs(column))) for column in columns), default=0.0)
+            case FormulaCall(formula=formula, inputs=inputs) if not known.value:
+                sizes = (self._size(value) if isinstance(value, TracedValue) else value for value in inputs)
+                return abs(float(formula.function(*sizes)))
+        return abs(float(known.value))
 
     def _is_nowhere(self, key: str) -> bool:
         """Return whether a key is the position of an extreme that is rounding noise."""
@@ -478,10 +489,8 @@ class LivePage:
         expected = np.array([traced.value for traced in all_traced if traced is not None])[is_exact[: len(all_traced)]]
         # the position of an extreme has half as many exact digits
         is_place = "angle" in known.key or "time_ratio" in known.key
-        # the mean of a column may be rounding noise
-        operands = known.node.operands if isinstance(known.node, ProcedureValue) else ()
-        columns = [self._results[0].columns.get(operand.key, 0.0) for operand in operands]
-        size = max(float(np.max(np.abs(column), initial=0.0)) for column in (expected, *columns, _SAME))
+        # the mean of a column may be rounding noise, and what follows from it too
+        size = max(float(np.max(np.abs(expected), initial=0.0)), self._size(known), _SAME)
         return bool(
             np.all(np.abs(values - expected) <= np.maximum(_SAME_PLACE if is_place else _SAME, left_out) * size)
         )

@@ -41,7 +41,7 @@ def linkage_paths(machine: Machine) -> dict[str, str]:
     rod, guide = f"links.{cell.link}", f"guides.{guides[cell.slider]}"
     paths = {
         "rod.length": f"{rod}.length",
-        **{f"rod.{end}_mass": f"{rod}.mass" for end in ("small_end", "big_end")},
+        **{f"rod.{end}mass": f"{rod}.mass" for end in ("small_end_", "big_end_", "")},
         "rod.inertia": f"{rod}.inertia",
         "piston.mass": f"sliders.{cell.slider}.mass",
         "cylinder.offset": f"{guide}.through",
@@ -75,7 +75,7 @@ def _of_gas(chambers: CellChambers) -> dict[str, str]:
     if chambers.head is not None:
         head = f"chambers.{chambers.head[0]}"
         paths |= {f"cylinder.{key}": f"{head}.{key}" for key in ("clearance_volume", "compression_ratio")}
-        paths |= {"cylinder.bore": f"{head}.faces[1].bore", "gas.ambient": f"{head}.ambient"}
+        paths |= {"cylinder.bore": f"{head}.faces[1].bore", "gas.ambient": f"{head}.ambient", "gas.points": head}
         paths |= dict.fromkeys(("gas.cycle", "cycle.cycle"), f"{head}.period")
         paths |= {"cycle.ambient_pressure": f"{head}.ambient", "gas.valves": f"{head}.valves"}
     if chambers.crank_end is not None:
@@ -88,13 +88,19 @@ def _of_gas(chambers: CellChambers) -> dict[str, str]:
 
 
 def relocate(traced: Iterable[TracedValue], paths: Mapping[str, str]) -> None:
-    """Give inputs of an engine form the paths of its linkage; empty for an input that the linkage does not state."""
+    """Give inputs of an engine form the paths of its linkage."""
     for known in in_order(traced):
-        node = known.node
-        if isinstance(node, Input) and _OF_ENGINES.match(node.path):
-            tables = (node.path[: dot.start()] for dot in reversed([*_ENDS.finditer(node.path)]))
-            table = next((table for table in tables if table in paths), "")
-            node.path = f"{paths[table]}{node.path.removeprefix(table)}" if table else ""
+        if isinstance(known.node, Input):
+            known.node.path = relocated(known.node.path, paths)
+
+
+def relocated(path: str, paths: Mapping[str, str]) -> str:
+    """Return where a linkage states an input of its engine form; empty if it does not."""
+    if not _OF_ENGINES.match(path):
+        return path
+    tables = (path[: dot.start()] for dot in reversed([*_ENDS.finditer(path)]))
+    table = next((table for table in tables if table in paths), "")
+    return f"{paths[table]}{path.removeprefix(table)}" if table else ""
 
 
 # of the size of a value, where rounding ends

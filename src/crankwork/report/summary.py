@@ -115,8 +115,8 @@ def values_text(results: Results, place: float, language: Language = "en") -> st
     full = results.complete
     columns = full.columns_at([full.degrees_of(place) if full.period else place])
     keys = [key for key in dict.fromkeys((*results.columns, *full.columns)) if key in columns]
-    if not keys:
-        raise CrankworkError(ErrorMessage("explain_what"))
+    if not {*keys} - {"crank_angle"}:
+        raise CrankworkError(ErrorMessage("explain_nothing_varies"))
     # refused by its name where it is beyond the cycle or never reached
     full.value(next((key for key in keys if not math.isfinite(columns[key][0])), keys[0]), at=place)
     shown = without_rounding({key: columns[key] for key in keys}, results.machine.speed)

@@ -189,7 +189,8 @@ def _axis(values: dict[str, object], text: str) -> tuple[NumericField, SearchPoi
     steps = int(match["steps"] or STEPS)
     if not _MIN_STEPS <= steps <= _MAX_STEPS:
         raise CrankworkError(ErrorMessage("map_steps", most=str(_MAX_STEPS)))
-    return variable, search_points(variable, *ends_of(f"{match['low']}..{match['high']}"), steps)
+    options = (f"--over {variable.key}",) * 2
+    return variable, search_points(variable, *ends_of(f"{match['low']}..{match['high']}"), steps, options=options)
 
 
 def ends_of(text: str) -> tuple[str, str]:

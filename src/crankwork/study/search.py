@@ -93,7 +93,7 @@ class DesignSpace:
         seen: Callable[[Array, Array], None],
     ) -> None:
         values = description.values_with(overrides)
-        numbers = {key: numeric_field(values, key) for key in (*bounds, *start)}
+        numbers = {key: numeric_field(values, key, "") for key in (*bounds, *start)}
         self.numbers = {key: numbers[key] for key in bounds}
         self.low, self.high = (
             np.array([_in_si(numbers[key], pair[end]) for key, pair in bounds.items()], dtype=float) for end in (0, 1)

@@ -108,15 +108,7 @@ def _range(values: dict[str, object], text: str, around: float) -> tuple[Numeric
     if match is None:
         raise CrankworkError(ErrorMessage("slider_form", text=text[:60]))
     key = match["key"]
-    try:
-        number = numeric_field(values, key, _OPTION)
-    except CrankworkError as error:
-        mistake = error.args[0]
-        if mistake.name.startswith("sought"):
-            raise CrankworkError(ErrorMessage("slider_no_number", key=key[:60])) from None
-        if mistake.name == "option_wrong":
-            raise
-        raise CrankworkError(ErrorMessage("option_wrong", option=f"{_OPTION} {key[:60]}", mistake=mistake)) from None
+    number = numeric_field(values, key, _OPTION)
     if number.now is None:
         raise CrankworkError(ErrorMessage("slider_unstated", key=key))
     if match["low"] is None:
@@ -127,7 +119,7 @@ def _range(values: dict[str, object], text: str, around: float) -> tuple[Numeric
     ends = [stated_limit(number, bound, option) for bound in (low, high)]
     assert ends[0] is not None and ends[1] is not None  # noqa: S101, PT018 - both are stated
     if not ends[0] < ends[1]:
-        raise CrankworkError(ErrorMessage("slider_empty", key=key, start=low, end=high))
+        raise CrankworkError(ErrorMessage("range_empty", option=option, start=low, end=high))
     if not ends[0] <= number.now <= ends[1]:
         raise CrankworkError(ErrorMessage("slider_beside", key=key, now=shown(number.written(number.now))))
     return number, ends[0], ends[1]

@@ -184,6 +184,10 @@ def read_study(
     values = parse(text, name)
     reader = Reader()
     machine = _machine(values, reader, folder or Path())
+    for setting in overrides:
+        key = setting.partition("=")[0].strip() if isinstance(setting, str) else ""
+        if key.split(".")[0] in STUDY_FILE.keys.keys() - {"title"}:
+            raise CrankworkError(ErrorMessage("set_of_study", key=key))
     if machine is not None:
         overrides = [*_settings(values, machine, reader), *overrides]
         stated = machine.values_with(overrides)
@@ -191,7 +195,7 @@ def read_study(
         values["vary"] = _flat_fields(values.get("vary"), stated)
     for table in ("objectives", "limits"):
         if table in values:
-            values[table] = _flat(values[table])
+            values[table] = _flat(values[table], is_plain=table == "objectives")
     read = STUDY_FILE.read(values, "", reader) or Values({}, STUDY_FILE)
     if is_search:
         _check_search(read, reader)
@@ -291,15 +295,16 @@ def _is_table(stated: dict[str, Any], key: str) -> bool:
         return False
 
 
-def _flat(table: object, path: str = "") -> Any:  # noqa: ANN401 - any TOML value
-    """Return keys of results by their dotted keys."""
+def _flat(table: object, path: str = "", *, is_plain: bool) -> Any:  # noqa: ANN401 - any TOML value
+    """Return keys of results by their dotted keys; `is_plain`: they have a text each, not a table."""
     if not isinstance(table, dict):
         return table
     flat: dict[str, Any] = {}
     for name, value in table.items():
         key = f"{path}.{name}" if path else name
-        is_table = isinstance(value, dict) and not _LIMITS.keys() & value.keys() and value
-        flat |= _flat(value, key) if is_table else {key: value}
+        inner = value.values() if isinstance(value, dict) else ()
+        is_table = any(is_plain or isinstance(entry, dict) for entry in inner)
+        flat |= _flat(value, key, is_plain=is_plain) if is_table else {key: value}
     return flat
 
 
@@ -442,8 +447,8 @@ def _wanted(read: Values, results: Results, reader: Reader) -> tuple[dict[str, t
     if not named and not reader.problems:
         reader.add_error("values", ErrorMessage("study_nothing"))
     with use_units(results.machine.units):
-        limits = (read["limits"] or {}).items()
-        return {key: _limits(key, stated, reader) for key, stated in limits if stated and key in known}, results
+        stated = {key: ends for key, ends in (read["limits"] or {}).items() if ends is not None and key in known}
+        return {key: _limits(key, ends, reader) for key, ends in stated.items()}, results
 
 
 def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:
@@ -458,7 +463,9 @@ def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:
             ends[name] = level_of(key, str(written))
         except ValueError as error:
             reader.add_error(path, error.args[0])
-    if not ends["at_least"] <= ends["at_most"]:
+    if not stated:
+        reader.add_error(f"limits.{key}", ErrorMessage("missing", advice="at_most = ..."))
+    elif not ends["at_least"] <= ends["at_most"]:
         reader.add_error(f"limits.{key}", ErrorMessage("limits_apart"))
     return ends["at_least"], ends["at_most"]
 

@@ -137,12 +137,12 @@ def _causes(study: Study, aggregate: StudyAggregate, language: Language) -> Iter
         indices = shares.indices()
         if indices is None:
             continue
-        first, _, total, _ = indices
-        rows = sorted(zip(total, first, study.varied, strict=True), key=lambda row: -row[0])
-        for total_share, alone, field in rows:
-            if total_share > _MIN_SHARE:
-                shown = (f"{number(100 * max(share, 0.0), language, digits=3)} %" for share in (alone, total_share))
-                yield label(key, language), field.key, *shown
+        rows = sorted(zip(*indices, study.varied, strict=True), key=lambda row: -row[2])
+        for alone, alone_error, total, total_error, field in rows:
+            if total > _MIN_SHARE:
+                shares_of_field = ((alone, alone_error), (total, total_error))
+                shown = ([number(100 * value, language, digits=3) for value in pair] for pair in shares_of_field)
+                yield label(key, language), field.key, *(f"{share} ± {error} %" for share, error in shown)
 
 
 def ranked(study: Study, aggregate: StudyAggregate) -> tuple[dict[str, Index], Index]:

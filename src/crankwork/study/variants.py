@@ -403,7 +403,7 @@ def sweep(
     array([0.08, 0.1 ])
     """
     values = description.values_with(overrides)
-    numbers = {key: numeric_field(values, key) for key in designs}
+    numbers = {key: numeric_field(values, key, "") for key in designs}
     columns = [_in_si(numbers[key], column) for key, column in designs.items()]
     if len({len(column) for column in columns}) != 1 or not columns[0]:
         raise CrankworkError(ErrorMessage("sweep_lengths", keys=", ".join(designs)))
@@ -430,6 +430,4 @@ def _in_si(number: NumericField, values: Sequence[float | str]) -> list[float]:
         unit = number.unit, number.dimension
         return [parse_in(value, *unit) if isinstance(value, str) else float(value) for value in values]
     except ValueError as error:
-        raise CrankworkError(
-            ErrorMessage("option_wrong", option=f"--for {number.key}", mistake=error.args[0])
-        ) from None
+        raise CrankworkError(ErrorMessage("option_wrong", option=number.key, mistake=error.args[0])) from None

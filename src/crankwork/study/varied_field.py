@@ -40,21 +40,24 @@ class SearchPoints(NamedTuple):
 
 
 def search_points(
-    field: NumericField, start: str | float | None, end: str | float | None, steps: int, around: float = _AROUND
-) -> SearchPoints:
-    """Return the points of a search, between the stated ends or `around` the stated number, by this factor."""
-    low, high = (stated_limit(field, text, option) for text, option in ((start, "--from"), (end, "--to")))
+    field: NumericField, start: str | float | None, end: str | float | None, steps: int, around: float = _AROUND,
+    options: tuple[str, str] = ("--from", "--to"),
+) -> SearchPoints:  # fmt: skip
+    """Return the points of a search, between the stated ends or `around` the stated number, by this factor.
+
+    `options`: what messages name for the ends.
+    """
+    low, high = (stated_limit(field, text, option) for text, option in zip((start, end), options, strict=True))
     own = None if low is not None and high is not None else _own_range(field, around)
     if own is None and (low is None or high is None):
-        missing = "--from" if low is None else "--to"
-        raise CrankworkError(ErrorMessage("range_needed", option=missing, key=field.key))
+        raise CrankworkError(ErrorMessage("range_needed", option=options[low is not None], key=field.key))
     is_stated = own is None
     own = own or (0, 0)
     low, high = own[0] if low is None else low, own[1] if high is None else high
     if not low < high:
         ends = ((start, low), (end, high))
         written = [stated if isinstance(stated, str) else shown(field.written(value)) for stated, value in ends]
-        raise CrankworkError(ErrorMessage("range_empty", start=written[0], end=written[1]))
+        raise CrankworkError(ErrorMessage("range_empty", option=options[0], start=written[0], end=written[1]))
     is_even = not 0 < low * _FAR <= high
     values = np.linspace(low, high, steps + 1) if is_even else np.geomspace(low, high, steps + 1)
     values[0], values[-1] = low, high
