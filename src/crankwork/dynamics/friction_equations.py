@@ -25,6 +25,8 @@ Rows = NDArray[np.intp] | slice
 
 CONVERGED, NOT_CONVERGED, SELF_LOCKING, NO_POSITION = 0, 1, 2, 3
 _TOLERANCE = 1e-13
+# what pressing forces miss before the last step of Newton's method, of their size
+_NEARLY = 1e-7
 _ITERATIONS = 30
 # iterations after which no other solution is expected
 _MAX_TRIAL_STEPS = 12
@@ -197,7 +199,7 @@ class _Block:
             missing = pressing - caused
             pressing = pressing - solve_positions(derivative, missing)
             unknowns = self._ideal + (self._unit @ pressing[..., None])[..., 0]
-            if not np.any(np.abs(missing[self._is_unique]) > _TOLERANCE * caused[self._is_unique]):
+            if not np.any((np.abs(missing) > _NEARLY * caused)[self._is_unique]):
                 break
         return unknowns
 
@@ -212,9 +214,10 @@ class _Block:
         is_left = status == CONVERGED
         if self._is_unique.any():
             direct = self._direct()
-            residual[:] = self._miss(direct, 1.0, slice(None))[1]
+            missing, residual, derivative = self._miss(direct, 1.0, slice(None))
             is_done = self._is_unique & (residual < _TOLERANCE)
-            unknowns[is_done], is_left = direct[is_done], is_left & ~is_done
+            unknowns[is_done], is_left = (direct - solve_positions(derivative, missing))[is_done], is_left & ~is_done
+        grown = is_left.copy()
         for share in _STEPS if is_left.any() else ():
             rows, turns = all_rows[is_left], turned.copy()
             for step in range(_ITERATIONS + 1):
@@ -232,9 +235,9 @@ class _Block:
             status[is_left & ~lost & ~settled] = NOT_CONVERGED
             is_left &= status == CONVERGED
         # after one more step only rounding is left
-        rows = all_rows[status == CONVERGED]
-        missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
-        unknowns[rows] -= solve_positions(derivative, missing)
+        if (rows := all_rows[grown & (status == CONVERGED)]).size:
+            missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
+            unknowns[rows] -= solve_positions(derivative, missing)
         unknowns[status != CONVERGED] = np.nan
         return unknowns, residual, status
 
