@@ -63,9 +63,11 @@ from crankwork.preparation.prepared import Notice, PreparedLinkage, relative_dif
 # rows whose changes of sign divide the cycle
 _CHANGES = ("margin", "ideal", "torque", "another")
 _STEP = 1.0
-# tolerance of the angle of a change of sign [deg]
-_PLACED = 1e-10
-_SECTIONS = 32
+# tolerance of the angle of a change of sign, and the width of its bracket, in which values may jump [deg]
+_PLACED, _NARROW = 1e-10, 1e-12
+# where changes of sign are looked for between two places: around the zero of a line, and evenly, as values may jump
+_AROUND = np.outer((-1, 1), 10.0 ** -np.arange(1, 9)).ravel()
+_EVENLY = np.arange(1, 16) / 16
 
 
 @dataclass(frozen=True)
@@ -267,19 +269,29 @@ def _between(
     `value_at` gives those of some brackets at places. NaN counts as a sign of its own. `ends`: values at both places.
     """
     (low, high), values = (low.copy(), high.copy()), np.array(ends)
-    shares, brackets = np.linspace(0.0, 1.0, _SECTIONS + 1)[1:-1], np.arange(low.size)
-    while np.any(high - low > _PLACED):
-        places = low[:, None] + (high - low)[:, None] * shares
-        inside = value_at(places.ravel(), np.repeat(brackets, shares.size)).reshape(places.shape)
+    while (left := np.flatnonzero(high - low > _NARROW)).size:
+        shares = np.clip(_zero_of_line(*values[:, left])[:, None] + _AROUND, 0.0, 1.0)
+        shares = np.sort(np.concatenate([shares, np.tile(_EVENLY, (left.size, 1))], axis=1), axis=1)
+        places = low[left, None] + (high - low)[left, None] * shares
+        inside = value_at(places.ravel(), np.repeat(left, shares.shape[1])).reshape(places.shape)
+        places, inside = (
+            np.column_stack([start[left], between, end[left]])
+            for between, (start, end) in ((places, (low, high)), (inside, values))
+        )
         # the first place that has not the sign of the lower end
-        is_other = np.concatenate([_sign(inside) != _sign(values[0])[:, None], np.ones((low.size, 1), bool)], axis=1)
-        after = np.argmax(is_other, axis=1)
-        places, inside = np.column_stack([low, places, high]), np.column_stack([values[0], inside, values[1]])
-        low, high = (places[brackets, after + side] for side in (0, 1))
-        values = np.array([inside[brackets, after + side] for side in (0, 1)])
+        is_other = _sign(inside[:, 1:-1]) != _sign(inside[:, :1])
+        after = np.argmax(np.concatenate([is_other, np.ones((left.size, 1), bool)], axis=1), axis=1)
+        rows = np.arange(left.size)
+        low[left], high[left] = (places[rows, after + side] for side in (0, 1))
+        values[:, left] = [inside[rows, after + side] for side in (0, 1)]
+    return np.asarray(low + (high - low) * _zero_of_line(*values))
+
+
+def _zero_of_line(first: Array, last: Array) -> Array:
+    """Return where lines between values at 0 and at 1 are zero, the middle where they are not."""
     with np.errstate(all="ignore"):
-        share = values[0] / (values[0] - values[1])
-    return np.asarray(low + (high - low) * np.where(np.isfinite(share), share, 0.5))
+        share = first / (first - last)
+    return np.where(np.isfinite(share), share, 0.5)
 
 
 def _sign(values: Array) -> Array:

@@ -25,11 +25,15 @@ Rows = NDArray[np.intp] | slice
 
 CONVERGED, NOT_CONVERGED, SELF_LOCKING, NO_POSITION = 0, 1, 2, 3
 _TOLERANCE = 1e-13
+# what pressing forces miss before the last step of Newton's method, of their size
+_NEARLY = 1e-7
 _ITERATIONS = 30
 # iterations after which no other solution is expected
 _MAX_TRIAL_STEPS = 12
 # friction is increased to its full value in steps, starting from the solution without it
 _STEPS = (0.25, 0.5, 0.75, 1.0)
+# how often a matrix is squared to bound its spectral radius, and its norm then, of less than 1
+_SQUARINGS, _CONTRACTS = 3, 0.5
 # relative difference by which another solution is told from the first
 _MIN_DIFFERENCE = 1e-6
 # residuals of small forces are relative to this share of the largest force
@@ -158,7 +162,46 @@ class _Block:
     def __init__(self, matrix: Array, right: Array, parts: Sequence[_Part], largest: Array) -> None:
         self._matrix, self._right, self._parts, self._largest = matrix, right, parts, largest
         self._ideal = solve_positions(matrix, right)
-        self._sign = _orientation(matrix)
+        # change of the unknowns by a unit of each pressing force, shape (n, unknowns, joints)
+        unit = [-solve_positions(matrix, effects) for _, _, effects in parts]
+        self._unit = np.stack(unit, axis=-1) if unit else np.zeros((*right.shape, 0))
+        self._is_unique = self._contracts()
+
+    def _contracts(self) -> Truth:
+        """Return where there is one solution, and its determinant keeps its sign while friction grows.
+
+        Pressing forces are seminorms of the unknowns: with a spectral radius below 1 of what units of each press in
+        every joint, friction changes them by less than they differ.
+        """
+        gain = np.zeros((len(self._right), len(self._parts), len(self._parts)))
+        for row, (joint, column, _) in enumerate(self._parts):
+            gain[:, row] = joint.pressing(self._unit[:, column], self._unit[:, column + 1])[0]
+        for _ in range(_SQUARINGS):
+            gain = gain @ gain
+        return np.asarray(gain.sum(axis=-1).max(axis=-1, initial=0.0) < _CONTRACTS)
+
+    def _pressed(self, unknowns: Array, share: float, rows: Rows) -> tuple[Array, Array]:
+        """Return the pressing forces, and the derivative of what they differ by from those they cause, at positions."""
+        unit, pressing = self._unit[rows], np.empty((len(unknowns), len(self._parts)))
+        derivative = np.empty((*pressing.shape, len(self._parts)))
+        for row, (joint, column, _) in enumerate(self._parts):
+            pressing[:, row], *slopes = joint.pressing(unknowns[:, column], unknowns[:, column + 1])
+            first, second = (slope[:, None] * unit[:, column + side] for side, slope in enumerate(slopes))
+            derivative[:, row] = -share * (first + second)
+            derivative[:, row, row] += 1
+        return pressing, derivative
+
+    def _direct(self) -> Array:
+        """Return the unknowns by Newton's method for the pressing forces alone, with full friction."""
+        unknowns, pressing = self._ideal, np.zeros((len(self._right), len(self._parts)))
+        for _ in range(_ITERATIONS):
+            caused, derivative = self._pressed(unknowns, 1.0, slice(None))
+            missing = pressing - caused
+            pressing = pressing - solve_positions(derivative, missing)
+            unknowns = self._ideal + (self._unit @ pressing[..., None])[..., 0]
+            if not np.any((np.abs(missing) > _NEARLY * caused)[self._is_unique]):
+                break
+        return unknowns
 
     def solve(self) -> tuple[Array, Array, Status]:
         """Return unknowns, residual and status, from the solution without friction."""
@@ -168,46 +211,54 @@ class _Block:
         if not self._parts:
             residual[status == CONVERGED] = 0.0
             return unknowns, residual, status
-        for share in _STEPS:
-            rows, turns = all_rows[status == CONVERGED], turned.copy()
+        is_left = status == CONVERGED
+        if self._is_unique.any():
+            direct = self._direct()
+            missing, residual, derivative = self._miss(direct, 1.0, slice(None))
+            is_done = self._is_unique & (residual < _TOLERANCE)
+            unknowns[is_done], is_left = (direct - solve_positions(derivative, missing))[is_done], is_left & ~is_done
+        grown = is_left.copy()
+        for share in _STEPS if is_left.any() else ():
+            rows, turns = all_rows[is_left], turned.copy()
             for step in range(_ITERATIONS + 1):
                 missing, residual[rows], derivative = self._miss(unknowns[rows], share, rows)
-                turned[rows] = _orientation(derivative) != self._sign[rows]
+                turned[rows] = self._determinant(unknowns[rows], share, rows) <= 0
                 turns |= turned
                 going = ~(residual[rows] < _TOLERANCE) & np.isfinite(residual[rows])
                 rows = rows[going]
                 if not rows.size or step == _ITERATIONS:
                     break
                 unknowns[rows] -= solve_positions(derivative[going], missing[going])
-            open_yet, settled = status == CONVERGED, residual < _TOLERANCE
+            settled = residual < _TOLERANCE
             lost = np.where(settled, turned, turns)
-            status[open_yet & lost] = SELF_LOCKING
-            status[open_yet & ~lost & ~settled] = NOT_CONVERGED
+            status[is_left & lost] = SELF_LOCKING
+            status[is_left & ~lost & ~settled] = NOT_CONVERGED
+            is_left &= status == CONVERGED
         # after one more step only rounding is left
-        rows = all_rows[status == CONVERGED]
-        missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
-        unknowns[rows] -= solve_positions(derivative, missing)
+        if (rows := all_rows[grown & (status == CONVERGED)]).size:
+            missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
+            unknowns[rows] -= solve_positions(derivative, missing)
         unknowns[status != CONVERGED] = np.nan
         return unknowns, residual, status
 
     def margin(self, unknowns: Array) -> Array:
         """Return the determinant of the equations at a solution over that without friction. [-]"""
-        if not self._parts:
-            return np.ones(len(unknowns))
-        sign, size = np.linalg.slogdet(np.nan_to_num(self._miss(unknowns, 1.0, slice(None))[2]))
-        ideal_sign, ideal_size = np.linalg.slogdet(np.nan_to_num(self._matrix))
-        return np.asarray(sign * ideal_sign * np.exp(size - np.where(np.isfinite(ideal_size), ideal_size, 0.0)))
+        return self._determinant(unknowns, 1.0, slice(None))
+
+    def _determinant(self, unknowns: Array, share: float, rows: Rows) -> Array:
+        """Return the determinant of the equations over that without friction, 0 where it is unknown. [-]"""
+        return np.asarray(np.linalg.det(np.nan_to_num(self._pressed(unknowns, share, rows)[1])))
 
     def has_another(self, unknowns: Array, largest: Array) -> Truth:
         """Return where another solution is found, from the opposite of all forces or of those in one joint."""
         result = np.zeros(len(unknowns), dtype=bool)
-        if not self._parts:
+        if self._is_unique.all():
             return result
         for columns in (slice(None), *(slice(column, column + 2) for _, column, _ in self._parts)):
             start = self._ideal.copy()
             start[:, columns] *= -1
             difference = np.max(np.abs(self._settled(start) - unknowns), axis=1, initial=0.0)
-            result |= difference > _MIN_DIFFERENCE * largest
+            result |= ~self._is_unique & (difference > _MIN_DIFFERENCE * largest)
         return result
 
     def _settled(self, start: Array) -> Array:
@@ -241,8 +292,3 @@ class _Block:
         size += _SMALL * np.abs(matrix).sum(axis=-1) * largest[:, None]
         ratio = np.divide(np.abs(missing), size, out=np.zeros_like(size), where=size != 0)
         return missing, ratio.max(axis=1, initial=0.0), derivative
-
-
-def _orientation(matrix: Array) -> Array:
-    """Return the sign of the determinant of each system, 0 where it is not known."""
-    return np.asarray(np.linalg.slogdet(np.nan_to_num(matrix))[0])
