@@ -336,7 +336,9 @@ _PART = TableSpec("shaft_part", {
 })  # fmt: skip
 
 _THROW = TableSpec("throw", {
-    "formula": KeySpec(Choice(tuple(THROW_FORMULAS)), default="ker-wilson"),
+    "formula": KeySpec(
+        Choice(tuple(THROW_FORMULAS), (("bicera", ErrorMessage("throw_charts")),)), default="ker-wilson"
+    ),
     "journal_length": _SIZE,
     "journal_diameter": _SIZE,
     "journal_bore": _BORE,

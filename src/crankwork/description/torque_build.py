@@ -425,9 +425,7 @@ def build_torsion_alone(values: Values, reader: Reader) -> Machine | None:
     return machine_alone(values, method, speed or 1.0, turning=ShaftTorques(None, None, _TURN), torsion=model)
 
 
-def torsion_of_throws(
-    values: Values, reader: Reader, throws: int = 0, radius: float = 0.0
-) -> TorsionModel | None:
+def torsion_of_throws(values: Values, reader: Reader, throws: int = 0, radius: float = 0.0) -> TorsionModel | None:
     """Return the torsional system, with a disc for each throw of a crankshaft of a radius, or None after complaints."""
     names = tuple(f"throw_{number}" for number in range(1, throws + 1))
     shafts = dict(_shafts(values, names, radius, reader))
