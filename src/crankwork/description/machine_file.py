@@ -203,8 +203,8 @@ def _without_strangers(values: dict[str, Any], keys: TableSpec, reader: Reader) 
         kinds = [kind for kind in FILES if name in kind.keys]
         excluding = min(([item for item in values if item not in kind.keys] for kind in kinds), key=len, default=[])
         if excluding := [item for item in excluding if item in keys.keys]:
-            others = [f"[{item}]" for item in excluding]
-            reader.add_error(name, _ELSEWHERE.get(name) or ErrorMessage("table_apart", others=others))
+            stated = [f"[{item}]" for item in excluding]
+            reader.add_error(name, _ELSEWHERE.get(name) or ErrorMessage("table_apart", others=stated))
             del kept[name]
             for absent in keys.keys.keys() - values.keys():
                 reader.suspect(absent)
