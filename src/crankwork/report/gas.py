@@ -288,7 +288,7 @@ def willans(test: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     across, up = limits(ends), limits(rate, line)
     graph = Graph(paper, box, across, up, test.language)
     graph.frame(round_ticks(*across), round_ticks(*up))
-    graph.curve("no_load", [0.0, 0.0], up, width=0.45)
+    paper.segments(np.array([(*graph.point(0.0, up[0]), *graph.point(0.0, up[1]))]), width=0.45)
     graph.curve("extended", ends[:2], line[:2], DASHED)
     graph.curve("fuel_rate", ends[1:], line[1:])
     for x, y in zip(power.tolist(), rate.tolist(), strict=True):
