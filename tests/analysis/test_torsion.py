@@ -124,6 +124,65 @@ def test_lengths_of_throws_are_those_of_their_formulas(formula):
     assert results["natural_frequency.1"] == pytest.approx(math.sqrt(2 * stiffness), rel=1e-12)
 
 
+def test_a_formula_with_charts_says_so_and_names_those_without():
+    with pytest.raises(InputError, match=r"formula: .*charts.*timoshenko.*stiffness"):
+        crankwork.read_machine(THROW % "BICERA")
+
+
+DRAWN = """
+[fixed_points]
+shaft = ["0 mm", "0 mm"]
+[crank]
+pivot = "shaft"
+pin = "P"
+radius = "60 mm"
+speed = "1500 rpm"
+mass = "3 kg"
+centre = "P"
+inertia = "0.0108 kg*m2"
+[links.rod]
+joins = ["P", "W"]
+length = "200 mm"
+mass = "2.2 kg"
+centre = ["60 mm", "0 mm"]
+inertia = "0.01848 kg*m2"
+[guides.rail]
+through = ["0 mm", "0 mm"]
+angle = "0 deg"
+[sliders.piston]
+guide = "rail"
+pin = "W"
+mass = "1.5 kg"
+[positions]
+W = ["260 mm", "0 mm"]
+[torsion]
+throw_inertia = "0.02 kg*m2"
+discs.wheel.inertia = "0.5 kg*m2"
+shafts.rear = { between = ["throw_1", "wheel"], stiffness = "350 kN*m/rad" }
+"""
+
+
+def test_a_drawn_crank_with_rod_and_piston_is_a_throw():
+    """Two discs, the first with the mean of twice the kinetic energy over the square of the speed."""
+    phi, r, l = np.linspace(0, 2 * math.pi, 4000, endpoint=False), 0.06, 0.2  # noqa: E741
+    pin = r * np.exp(1j * phi)
+    end = (pin.real + np.sqrt(l**2 - pin.imag**2)).astype(complex)
+    rates = [np.fft.ifft(1j * np.fft.fftfreq(4000, 1 / 4000) * np.fft.fft(x)) for x in (end, pin + 0.3 * (end - pin))]
+    turn = r * np.cos(phi) / np.sqrt(l**2 - pin.imag**2)
+    reduced = 1.5 * abs(rates[0]) ** 2 + 2.2 * abs(rates[1]) ** 2 + 0.01848 * turn**2
+    throw, k = float(np.mean(reduced)) + 3 * r**2 + 0.02, 350e3
+    results = analysed(DRAWN)
+    assert results["natural_frequency.1"] == pytest.approx(math.sqrt(k * (1 / throw + 1 / 0.5)), rel=1e-10)
+    heavier = analysed(DRAWN.replace('mass = "3 kg"\ncentre = "P"\n', ""))
+    assert [notice.code for notice in heavier.notices if notice.code.startswith("torsion_crank")]
+    with pytest.raises(InputError, match=r"torsion: only for a crank with rods and pistons"):
+        analysed(
+            DRAWN.replace("radius =", 'points = { Q = ["90 mm", "0 mm"] }\nradius =').replace(
+                '["P", "W"]', '["Q", "W"]'
+            )
+        )
+
+
 def one_disc(damper: str, ratio: float) -> crankwork.Results:
     """Return a disc on a shaft with a damper, excited at a part of its own frequency of 100 rad/s."""
     return analysed(f"""

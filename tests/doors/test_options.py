@@ -66,7 +66,10 @@ WRONG_COMMANDS = [
     (("reprot", "my.toml"), '"reprot": there is no such command; did you mean report?'),
     (("my.toml",), "my.toml: a command comes first; write crankwork check my.toml, or"),
     (("--lang", "ru", "run", "my.toml"), "--lang: параметр команды; запишите его после неё, например crankwork run"),
-    (("new", "steam"), 'there is no template "steam"; there are: balancing, chebyshev, compressor, crank-shaper, '),
+    (
+        ("new", "steam"),
+        'there is no template "steam"; there are: balancing, chebyshev, clutch, compressor, crank-shaper, ',
+    ),
     (("new", "../../engine"), "there is no template"),
     (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
     (("check",), "FILE: is missing; write it after the command"),
@@ -180,7 +183,7 @@ def test_a_title_with_emoji_and_any_script_is_printed_as_it_is(crankwork, machin
 def test_new_prints_the_names_or_the_template(crankwork) -> None:
     lines = crankwork("new").out.splitlines()
     assert [line.split()[0] for line in lines] == [
-        "balancing", "chebyshev", "compressor", "crank-shaper", "engine", "four-bar", "hoecken", "jansen", "klann",
+        "balancing", "chebyshev", "clutch", "compressor", "crank-shaper", "engine", "four-bar", "hoecken", "jansen", "klann",
         "press", "pumpjack", "scotch-yoke", "slider-crank", "stephenson-six-bar", "toggle-press", "turning-moment",
         "watt-six-bar", "watt-straight-line", "whitworth", "whole-engine",
     ]  # fmt: skip

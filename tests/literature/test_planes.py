@@ -324,3 +324,24 @@ def test_what_cannot_balance_is_refused() -> None:
     for words, text in cases.items():
         with pytest.raises(InputError, match=words):
             analysed(text)
+
+
+def test_throws_and_counterweights_of_an_engine_are_masses_in_planes() -> None:
+    """Three throws at 120 degrees: sqrt(3) a w^2 times the moment of each, less that of its counterweight."""
+    engine = """
+        crank = { radius = "50 mm", speed = "3000 rpm", mass = "2 kg" }
+        rod = { length = "180 mm", mass = "1 kg", small_end_share = 0 }
+        engine = { layout = "inline", cylinders = 3, spacing = "100 mm" }
+        bearings.counterweight = "30 kg*mm"
+    """
+    masses = [
+        _mass(f"{name}{k}", mass=mass, radius=radius, angle=f"{240 * k + turn} deg", position=f"{100 * k} mm")
+        for k in range(3)
+        for name, mass, radius, turn in (("throw", "3 kg", "50 mm", 0), ("weight", "0.5 kg", "60 mm", 180))
+    ]
+    couple = math.sqrt(3) * 0.1 * (100 * math.pi) ** 2 * (0.15 - 0.03)
+    assert analysed(engine)["free_moment.residual.1"] == pytest.approx(couple, rel=1e-12)
+    assert analysed(_rotor(*masses, speed="3000 rpm"))["free_moment.1"] == pytest.approx(couple, rel=1e-12)
+    with pytest.raises(InputError, match=r"rotor: .*\[\[rotor.masses\]\].*counterweight") as refused:
+        analysed(f"{engine}\nrotor.masses = [{masses[0]}]")
+    assert len(refused.value.problems) == 1

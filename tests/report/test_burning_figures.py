@@ -9,7 +9,8 @@ import crankwork
 from crankwork.locale import LANGUAGES, translate
 from crankwork.note.options import NoteOptions
 from crankwork.note.sections import note_of_sections
-from crankwork.report.figures import drawings
+from crankwork.report.figures import diagrams, drawings
+from crankwork.report.look import drawn_of
 
 MACHINE = """
 crank = { stroke = "90 mm", speed = "3000 rpm" }
@@ -57,3 +58,28 @@ def test_a_test_alone_is_no_mechanism_that_is_drawn() -> None:
     assert not results.machine.moves
     assert drawings(results) == {}
     assert results["effective_torque"] == 100.0
+
+
+def test_the_line_of_willans_meets_no_fuel_at_the_losses() -> None:
+    """The root of the line through the points by least squares, of numpy's polyfit, is the power of the losses."""
+    powers, rates = [10.0, 20.0, 30.0, 40.0], [4.0, 6.1, 8.0, 10.1]
+    results = crankwork.analyse(
+        crankwork.Description(f"""
+        crank.speed = "1500 rpm"
+        [test]
+        effective_power = "40 kW"
+        load_powers = {[f"{power} kW" for power in powers]}
+        load_fuel_rates = {[f"{rate} kg/h" for rate in rates]}
+    """)
+    )
+    columns = results.listings["willans"].columns
+    np.testing.assert_allclose(columns["effective_power"], 1e3 * np.array(powers))
+    np.testing.assert_allclose(columns["fuel_rate"], np.array(rates) / 3600)
+    slope, idle = np.polyfit(powers, rates, 1)
+    for language in LANGUAGES:
+        drawn = drawn_of(results, language)
+        graph = diagrams(drawn)["willans"].draw(drawn)[1]["willans"]
+        below, over = (np.array(graph.curves[name]) for name in ("extended", "fuel_rate"))
+        np.testing.assert_allclose(below, [[-idle / slope, 0], [0, idle]], atol=1e-9)
+        np.testing.assert_allclose(over, [[0, 40], [idle, idle + 40 * slope]], rtol=1e-9)
+        assert translate("figures.willans", language) == drawings(results, language=language)["willans"].title

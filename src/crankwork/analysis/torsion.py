@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis.crankshaft_bearings import rotating_mass_of
-from crankwork.analysis.cylinder_forces import TracedCylinder
+from crankwork.analysis.cylinder_forces import TracedCylinder, traced_cylinder
 from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
 from crankwork.analysis.harmonics import curve_of
 from crankwork.analysis.reduction import MOVING
@@ -30,6 +30,8 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Engine, Machine
+from crankwork.preparation.cell_gas import linkage_paths, relocate
+from crankwork.preparation.cylinder_form import engine_form
 from crankwork.preparation.prepared import Notice, PreparedMachine
 from crankwork.shaft import torsion_formulas as formulas
 from crankwork.shaft.torsion_model import GROUNDED, ElasticShaft, ShaftPart, TorsionModel, structure_of, walked
@@ -48,19 +50,22 @@ _TURN, _CYCLE = 360.0, 720.0
 
 
 def engine_of(results: Results) -> MultiCylinderEngine | None:
-    """Return all cylinders of an engine, one where there is one crank gear; None of another machine."""
-    solved = results.solved
+    """Return all cylinders of an engine or of the linkage that it is, one of one crank gear; None of other machines."""
+    solved, machine = results.solved, results.machine
     if not isinstance(solved, TracedCylinder):
-        return None
+        form = None if machine.linkage is None else engine_form(machine)
+        if form is None:
+            return None
+        solved = traced_cylinder(form, form.method)
+        relocate(solved.trace.values(), linkage_paths(machine))
     if solved.machine.engine is not None:
         return multi_cylinder_engine(solved)
     layout, _ = inline(1, (1,), strokes=4 if solved.machine.cycle == _CYCLE else 2)
     return MultiCylinderEngine(solved.machine, Engine(layout), (solved,))
 
 
-def throw_inertias(results: Results) -> tuple[Mapping[str, TracedValue], TracedValue | None]:
+def throw_inertias(engine: MultiCylinderEngine | None) -> tuple[Mapping[str, TracedValue], TracedValue | None]:
     """Return the mean over the cycle of the reduced inertia of the cylinders of each throw, and the crank radius."""
-    engine = engine_of(results)
     if engine is None:
         return {}, None
     radius = engine.master.trace["crank_radius"]
@@ -362,8 +367,8 @@ class Vibrating(NamedTuple):
         return stated or (_RANGE[0] * self.speed, _RANGE[1] * self.speed)
 
 
-def vibrating(results: Results, trace: TorsionTrace, modes: Modes) -> Vibrating:
-    """Return a torsional system with what excites and damps it."""
+def vibrating(results: Results, engine: MultiCylinderEngine | None, trace: TorsionTrace, modes: Modes) -> Vibrating:
+    """Return a torsional system with what excites and damps it; `engine`: whose cylinders excite."""
     model, count = trace.model, len(trace.structure.shafts)
     natural = NaturalModes(trace.structure, model.modes)
     none = absent("angular_damping")
@@ -375,14 +380,14 @@ def vibrating(results: Results, trace: TorsionTrace, modes: Modes) -> Vibrating:
     loss = [given("loss_factor", item.loss_factor, f"{item.path}.loss_factor") for item in model.shafts.values()]
     stiffness = [*trace.stiffness.values(), *[absent("torsional_stiffness")] * trace.structure.rings]
     speed = results.trace.get("speed", given("speed", results.machine.speed, "crank.speed"))
-    excitation = _excitation(results, trace)
+    excitation = _excitation(engine, trace)
     operands = (
         *trace.inertia.values(), *stiffness, *trace.ratio.values(), *trace.own_inertia.values(), *held, *relative,
         *loss, *[absent("loss_factor")] * (count - len(loss)), speed, *excitation.numbers,
     )  # fmt: skip
     forced = ForcedVibration(natural, excitation.waves, excitation.cycle)
     # discs and shafts alone need no speed
-    is_known = engine_of(results) is not None or "crank.speed" in results.machine.stated
+    is_known = engine is not None or "crank.speed" in results.machine.stated
     return Vibrating(trace, modes, forced, operands, excitation, speed.value if is_known else 0.0)
 
 
@@ -390,7 +395,7 @@ def _damping(path: str, value: float) -> TracedValue:
     return given("angular_damping", value, f"{path}.damping") if value else absent("angular_damping")
 
 
-def _excitation(results: Results, trace: TorsionTrace) -> Excitation:
+def _excitation(engine: MultiCylinderEngine | None, trace: TorsionTrace) -> Excitation:
     """Return the torques that a file states, and those of the cylinders of an engine."""
     number = {name: index for index, name in enumerate(trace.names)}
     waves, numbers, phases = list[Wave](), list[TracedValue](), list[tuple[int, float | None, float]]()
@@ -403,7 +408,6 @@ def _excitation(results: Results, trace: TorsionTrace) -> Excitation:
             waves.append(Wave(disc, 0.0, own, None, torque.phase, frequency=own + 1))
         else:
             waves.append(Wave(disc, torque.order or 1.0, own, None, torque.phase))
-    engine = engine_of(results)
     if engine is not None and "crank_torque" in engine.master.trace:
         cycle, places = math.radians(engine.layout.cycle), dict[int, int]()
         for place, torques in gas_and_inertia_torques(engine, trace.model.orders):
@@ -462,11 +466,10 @@ def _section(shaft: ElasticShaft) -> tuple[TracedValue, TracedValue] | None:
     return section(path, diameter, bore)
 
 
-def damper_values(results: Results, system: Vibrating) -> dict[str, TracedValue]:
+def damper_values(system: Vibrating, pi: float, radius: TracedValue | None) -> dict[str, TracedValue]:
     """Return what is best for each damper: inertia ratio, damping, spring, and the peak that is left."""
     values, model = dict[str, TracedValue](), system.trace.model
-    bare = torsion_trace(replace(model, dampers={}), dict(system.trace.inertia), results.method.pi,
-                         results.trace.get("crank_radius"))  # fmt: skip
+    bare = torsion_trace(replace(model, dampers={}), dict(system.trace.inertia), pi, radius)
     operands = bare.elastic
     for name, damper in model.dampers.items():
         function = DampedDisc(NaturalModes(bare.structure, max(model.modes, damper.mode)), bare.names.index(damper.on),
@@ -614,16 +617,17 @@ def with_torsion(results: Results) -> Results:
     model = results.machine.torsion
     if model is None:
         return results
-    own, radius = throw_inertias(results)
-    trace = torsion_trace(model, own, results.method.pi, radius)
+    engine, pi = engine_of(results), results.method.pi
+    own, radius = throw_inertias(engine)
+    trace = torsion_trace(model, own, pi, radius)
     natural = NaturalModes(trace.structure.without_rings(), model.modes)
     modes = natural.modes([number.value for number in trace.elastic])
     values = dict(trace.values) | dict(_traced_modes(trace, natural, modes))
     nodes = dict(_nodes(trace, values, modes))
     values |= {key: value for pair in nodes.values() for key, value in pair.items()}
     values |= dict(_remainders(trace, natural))
-    system, pi = vibrating(results, trace, modes), results.method.pi
-    values |= damper_values(results, system) | forced_values(system, pi)
+    system = vibrating(results, engine, trace, modes)
+    values |= damper_values(system, pi, radius) | forced_values(system, pi)
     single = {key: value for key, value in values.items() if _is_single(key, value)}
     listings = {**results.listings, **_listings(trace, modes), **_node_listing(nodes), **_holzer(trace, natural, modes)}
     if damped := damped_values(system):

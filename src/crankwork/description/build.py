@@ -84,7 +84,7 @@ def build_machine(values: Values, reader: Reader) -> Machine | None:
     if own or values["gas"]["measured"]["columns"]:
         engine, gas = _with_own_gas(values, engine, gas, reader)
     speed = crank_speed(crank["speed"], method) if crank["speed"] else 0.0
-    torsion = _torsion(values, engine, lengths, reader)
+    torsion = build_torsion(values, engine, lengths, reader)
     if "recovery" in flywheel and masses and (masses.piston or masses.rod_small_end) and method.name != "textbook":
         reader.add_error("flywheel.recovery", ErrorMessage("recovery_of_linkage"))
     drive = read_flywheel(flywheel, Drive(), speed, reader, pi=method.pi)
@@ -181,16 +181,16 @@ def _workable(machine: Machine, work: Callable[[Machine], object], table: str, r
     return machine
 
 
-def _torsion(
+def build_torsion(
     values: Values, engine: Engine | None, lengths: tuple[float, float, float] | None, reader: Reader
 ) -> TorsionModel | None:
     """Return the torsional system of the crankshaft, if one is stated."""
     if "torsion" not in values:
         return None
-    from crankwork.description.torque_build import build_torsion  # noqa: PLC0415 - few files have one
+    from crankwork.description.torque_build import torsion_of_throws  # noqa: PLC0415 - few files have one
 
     throws = 1 if engine is None else max(place.throw for place in engine.layout.places) + 1
-    return build_torsion(values["torsion"], reader, throws, lengths[0] if lengths else 0.0)
+    return torsion_of_throws(values["torsion"], reader, throws, lengths[0] if lengths else 0.0)
 
 
 def _with_sizes(values: Values, pi: float, reader: Reader) -> Values:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from crankwork.cylinders.arrangement import StandardOrder, boxer, build_layout, inline, radial, standard_orders, vee
@@ -11,7 +12,7 @@ from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_ro
 from crankwork.cylinders.firing import LayoutError, LayoutNotice, wrap_angle
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
-from crankwork.description.build import rod_masses
+from crankwork.description.build import build_torsion, rod_masses
 from crankwork.description.schema import Values
 from crankwork.description.value_types import Reader
 from crankwork.dynamics.force_system import all_links_and_joints
@@ -27,7 +28,7 @@ from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
 J = TypeVar("J")
-_TABLES = ("shaft", "bearings", "balance")
+_TABLES = ("shaft", "bearings", "balance", "torsion")
 # of bearings, what any linkage has whose crank turns fully
 _OF_LINKAGE = {"pins", "rays"}
 # throws of two cylinders without a customary order
@@ -348,7 +349,7 @@ def build_shaft(values: Values, reader: Reader) -> Shaft | None:
     """Return the crankshaft that a file describes, None if it says nothing of it."""
     if not _of_crankshaft(values):
         return None
-    shaft, sizes, balance = (values[name] for name in _TABLES)
+    shaft, sizes, balance = (values[name] for name in _TABLES[:3])
     check_counterweights(sizes, balance, reader)
     firing = {name: math.degrees(angle.value) for name, angle in shaft["firing"].items() if angle is not None}
     return Shaft(
@@ -381,22 +382,26 @@ def check_counterweights(sizes: Values, balance: Values, reader: Reader) -> None
         reader.add_error("bearings.counterweight", ErrorMessage("counterweight_twice"))
 
 
-def check_shaft(machine: Machine, values: Values, reader: Reader) -> bool:
-    """Return whether a linkage is that of a crankshaft if its file describes one; report if not."""
+def with_crankshaft(machine: Machine, values: Values, reader: Reader) -> Machine | None:
+    """Return a linkage with the torsional system of its crankshaft; None after complaints where it has none."""
     if machine.shaft is None:
-        return True
+        return machine
     # most linkages do not load it
     from crankwork.preparation.cylinder_form import engine_form_or_reason  # noqa: PLC0415
 
     form = engine_form_or_reason(machine)
     if isinstance(form, Machine):
-        return True
+        torsion = build_torsion(values, form.engine, form.lengths, reader)
+        is_own = form.drive.inertia > machine.drive.inertia or {"mass", "centre"}.isdisjoint(values["crank"])
+        if torsion is not None and is_own and "inertia" in values["crank"]:
+            machine = replace(machine, notices=(*machine.notices, ("torsion_crank", {})))
+        return None if reader.problems else replace(machine, torsion=torsion)
     if form.key:
         reader.add_error(form.key, form.message)
     else:
         for table in _of_crankshaft(values):
             reader.add_error(table, ErrorMessage("shaft_of_engine", reason=form.message))
-    return False
+    return None
 
 
 def _names(listed: list[str | None]) -> tuple[str, ...]:

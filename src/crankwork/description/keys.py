@@ -145,8 +145,8 @@ _ENGINE_SECTIONS = (
 )  # fmt: skip
 _LINKAGE_SECTIONS = (
     "summary", "task", "structure", "kinematics", "quality", "chambers", "stages", "forces", "balance", "reduction",
-    "torques", "friction", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison",
-    "checks", "conclusion", "nomenclature", "sources", "appendix",
+    "torques", "friction", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "torsion", "transient",
+    "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
 )  # fmt: skip
 _TRANSFER_SECTIONS = (
     "summary", "task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "nomenclature", "sources",
@@ -336,7 +336,9 @@ _PART = TableSpec("shaft_part", {
 })  # fmt: skip
 
 _THROW = TableSpec("throw", {
-    "formula": KeySpec(Choice(tuple(THROW_FORMULAS)), default="ker-wilson"),
+    "formula": KeySpec(
+        Choice(tuple(THROW_FORMULAS), (("bicera", ErrorMessage("throw_charts")),)), default="ker-wilson"
+    ),
     "journal_length": _SIZE,
     "journal_diameter": _SIZE,
     "journal_bore": _BORE,

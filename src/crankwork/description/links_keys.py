@@ -12,6 +12,7 @@ from crankwork.description.keys import (
     BEARINGS,
     CHAMBER_CYCLE,
     COORDINATE,
+    CRANKSHAFT_TORSION,
     DIAGRAM,
     EFFICIENCY,
     FLYWHEEL,
@@ -308,6 +309,7 @@ LINKAGE_FILE = TableSpec("file", {
     "shaft": KeySpec(_SHAFT),
     "bearings": KeySpec(_BEARINGS),
     "balance": KeySpec(BALANCE),
+    "torsion": CRANKSHAFT_TORSION,
     **LOADING,
     "flywheel": KeySpec(FLYWHEEL),
     "method": KeySpec(METHOD),
@@ -317,7 +319,7 @@ LINKAGE_FILE = TableSpec("file", {
 UNIT_SPEED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
-_OF_CRANKSHAFT = ("stages", "vessels", "shaft", "bearings", "balance")
+_OF_CRANKSHAFT = ("stages", "vessels", "shaft", "bearings", "balance", "torsion")
 DRIVEN_FILE = LINKAGE_FILE._replace(keys={
     **{name: key for name, key in LINKAGE_FILE.keys.items() if name not in _OF_CRANKSHAFT},
     "crank": KeySpec(_CRANK._replace(keys={

@@ -83,12 +83,14 @@ _LEAST_PRESSURE = 1.0
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # tables that need no mechanism, tables of one, and the keys of a file that has none of these
 _WITHOUT_MECHANISM: tuple[tuple[str, tuple[str, ...], TableSpec], ...] = (
-    ("rotor", (), ROTOR_FILE),
+    ("rotor", (*_OF_LINKAGES, "rod", "cylinder", "engine", "gas", "cycle"), ROTOR_FILE),
     ("clutch", (), CLUTCH_FILE),
     ("test", (*_OF_LINKAGES, "rod"), TEST_FILE),
     ("stages", (*_OF_LINKAGES, "rod", "cylinder", "gas", "cycle"), STAGES_FILE),
     ("torsion", (*_OF_LINKAGES, "rod", "piston", "cylinder", "engine", "gas", "cycle", "torque", "load"), TORSION_FILE),
 )
+# tables with another message than that they stand in another kind of file
+_ELSEWHERE = {"load": ErrorMessage("unknown_table_near", nearest="[[loads]]"), "rotor": ErrorMessage("rotor_beside")}
 OF_LIQUID = PIPED_VALVES.keys.keys() - VALVES.keys.keys()
 # what needs a speed: inertia, damping, and work of the gas in a time
 _OF_SPEED = frozenset((
@@ -201,8 +203,8 @@ def _without_strangers(values: dict[str, Any], keys: TableSpec, reader: Reader) 
         kinds = [kind for kind in FILES if name in kind.keys]
         excluding = min(([item for item in values if item not in kind.keys] for kind in kinds), key=len, default=[])
         if excluding := [item for item in excluding if item in keys.keys]:
-            meant = ErrorMessage("unknown_table_near", nearest="[[loads]]") if name == "load" else None
-            reader.add_error(name, meant or ErrorMessage("table_apart", others=[f"[{item}]" for item in excluding]))
+            stated = [f"[{item}]" for item in excluding]
+            reader.add_error(name, _ELSEWHERE.get(name) or ErrorMessage("table_apart", others=stated))
             del kept[name]
             for absent in keys.keys.keys() - values.keys():
                 reader.suspect(absent)

@@ -165,12 +165,12 @@ def given_motion_tables(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
 def _of_shaft(
     values: Mapping[str, Any], machine: Machine, gears: list[CrankMechanism]
 ) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """Yield the tables of crankshaft, bearings and balance."""
+    """Yield the tables of crankshaft, bearings, balance and torsion."""
     shaft = _shaft(machine, machine.engine, gears) if machine.engine is not None else {}
     if machine.cylinder is not None and machine.gas is None:
         shaft["bore"] = _unit(machine.cylinder.bore, "mm")
     yield from ((key, table) for key, table in {"shaft": shaft}.items() if table)
-    yield from ((key, values[key]) for key in ("bearings", "balance") if key in values)
+    yield from ((key, values[key]) for key in ("bearings", "balance", "torsion") if key in values)
 
 
 def linkage_values(values: Mapping[str, Any], machine: Machine) -> dict[str, Any]:

@@ -417,7 +417,7 @@ def _rotor(table: Values, reader: Reader) -> Rotor:
 def build_torsion_alone(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of discs on shafts alone, or None after complaints."""
     method = exact_method(values, reader)
-    model = build_torsion(values["torsion"], reader)
+    model = torsion_of_throws(values["torsion"], reader)
     stated = values["crank"]["speed"]
     speed = crank_speed(stated, method) if stated else 0.0
     if not speed and model is not None and any(torque.order is not None for torque in model.torques):
@@ -427,7 +427,7 @@ def build_torsion_alone(values: Values, reader: Reader) -> Machine | None:
     return machine_alone(values, method, speed or 1.0, turning=ShaftTorques(None, None, _TURN), torsion=model)
 
 
-def build_torsion(values: Values, reader: Reader, throws: int = 0, radius: float = 0.0) -> TorsionModel | None:
+def torsion_of_throws(values: Values, reader: Reader, throws: int = 0, radius: float = 0.0) -> TorsionModel | None:
     """Return the torsional system, with a disc for each throw of a crankshaft of a radius, or None after complaints."""
     names = tuple(f"throw_{number}" for number in range(1, throws + 1))
     shafts = dict(_shafts(values, names, radius, reader))

@@ -397,6 +397,7 @@ class Choice(NamedTuple):
     """One of a few words or numbers."""
 
     options: tuple[str | int, ...]
+    refusals: tuple[tuple[str, ErrorMessage], ...] = ()  # Of words in small letters that are known and not possible
 
     def read(self, value: object, key: str, reader: Reader) -> str | int | None:
         """Return the word or number."""
@@ -407,7 +408,8 @@ class Choice(NamedTuple):
         if latin != value and latin in self.options:
             reader.add_error(key, ErrorMessage("key_look_alike", letters=look_alikes(str(value)), written=latin))
             return None
-        reader.add_error(key, ErrorMessage("choice", value=shown(value), options=options))
+        refusal = dict(self.refusals).get(str(value).lower())
+        reader.add_error(key, refusal or ErrorMessage("choice", value=shown(value), options=options))
         return None
 
     def schema(self, _: Language, /) -> dict[str, Any]:

@@ -59,7 +59,7 @@ _OF_HARMONICS = (
 )  # fmt: skip
 _AT_POINTS = ("cylinder_volume", "diagram_pressure")
 # parts of quantities of links that are no links or points
-_NO_LINKS = (
+NO_LINKS = (
     "exact", "start", "drive", "all", "mean", "min", "of_cylinder", "of_piston", "of_rod", "rotating", "knuckle_pins",
 )  # fmt: skip
 _OF_ORDERS = ("free_force", "free_moment", "shaking_moment_amplitude")
@@ -157,7 +157,7 @@ def value_symbol(key: str, language: Language) -> str:
         return kind
     shown = equation_symbol(ValueLine(kind, 0.0), language)
     is_owned = base_key(kind) in OF_LINKS or (kind in _AT_POINTS and len("".join(names[:1])) > _POINT)
-    if is_owned and names and names[0] not in _NO_LINKS:
+    if is_owned and names and names[0] not in NO_LINKS:
         return owned_symbol(kind, shown, ".".join(names), language)
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:

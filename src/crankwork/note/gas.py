@@ -460,7 +460,9 @@ SECTIONS = (
         Head("heat_release"), Text("burning"), At("burning"), Lines("burning"),
         Shown(("log_indicator", "combustion", "recorded_cycles"), (Rows("fitted_polytropes", "fitted_polytropes"),)),
     ), works("burning")),
-    Section("test", (Head("test"), Lines("test", intro="test", source="heywood_1988, ch. 2")), works("test")),
+    Section("test", (
+        Head("test"), Lines("test", intro="test", source="heywood_1988, ch. 2"), Shown(("willans",)),
+    ), works("test")),
     Section("clutch", (
         Head("clutch"), Lines("clutch", intro="clutch", source="khurmi_gupta_2005, ch. 10"),
     ), works("clutch")),

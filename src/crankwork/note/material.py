@@ -91,7 +91,7 @@ _MAIN_FIGURES = frozenset((
     "acceleration_plan", "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison",
     "turning_moment", "driver", "chambers", "speed", "sliders", "balance_polygons", "unbalanced", "stage_indicator",
     "rod_loads", "torsional_modes", "campbell", "torsional_response", "pump_flow", "log_indicator",
-    "combustion", "recorded_cycles", "zhukovsky_lever",
+    "combustion", "recorded_cycles", "zhukovsky_lever", "willans",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "crankpin_load"))}  # fmt: skip

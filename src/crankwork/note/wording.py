@@ -12,7 +12,7 @@ from crankwork.locale import Language, capital, decimal, has_text, texts, transl
 from crankwork.locale.numbers import number
 from crankwork.note.captions import note_text, printed_unit
 from crankwork.note.document import Cell, Heading, Math, Paragraph, Run, Runs, Table
-from crankwork.note.equations import value_symbol
+from crankwork.note.equations import NO_LINKS, value_symbol
 from crankwork.note.symbols import owned_symbol
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.key import key_of
@@ -124,7 +124,7 @@ class Words:
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`, what it belongs to in the subscript."""
-        if not self.has_names:
+        if not self.has_names or key_of(key).owner in NO_LINKS:
             return value_symbol(key, self.language)
         if base_key(key) not in QUANTITIES:
             return key

@@ -72,7 +72,7 @@ _OF_TABS = {
     "bearings": "_polar|_wear|crankpin_load",
     "balance": "balance|phase_stars|unbalanced",
     "torque": "torque|tangential|inertia|friction|moment|loops|work|speed|wittenbauer|campbell|torsional",
-    "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded",
+    "forces": "force|indicator|chambers|rod_loads|pump|lever|pressure|combustion|recorded|willans",
 }
 _TABS = ("motion", "forces", "torque", "bearings", "balance")
 _FIRST, _FIRST_LAYOUT = ("total_torque", "torque", "torques"), SCREEN._replace(width=120 / MM, tall=0.6)

@@ -58,6 +58,7 @@ from crankwork.report.gas import (
     recorded_cycles,
     rod_loads,
     stage_indicator,
+    willans,
 )
 from crankwork.report.look import (
     PLAIN,
@@ -516,6 +517,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("log_indicator", log_indicator, has("net_heat")),
     Construction("combustion", _heat_release, has("net_heat")),
     Diagram("recorded_cycles", recorded_cycles, has("recorded_cycles")),
+    Diagram("willans", willans, has("willans")),
     Diagram("piston_forces", piston_forces, piston("piston_force"), is_of_forces=True),
     _forces("rod_forces", rod_force=SOLID, side_force=DASHED),
     _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED, side_force=DASH_DOT),

@@ -19,7 +19,7 @@ from crankwork.quantities.quantity import number_of
 from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
 from crankwork.show.canvas import WIDER, Canvas, current_layout, plain, points_per_mm, text_width
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, true_slices
-from crankwork.show.label_placement import label_marks
+from crankwork.show.label_placement import label_marks, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, STYLES, Drawing
 
 HEIGHT = 216.0
@@ -276,6 +276,28 @@ def recorded_cycles(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     graph.level(float(np.mean(values)), DASHED, "mean")
     engine.name_axes(graph, "cycle_number", key)
     return paper, {"recorded_cycles": graph}
+
+
+def willans(test: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return fuel over brake power with its straight line, which meets the axis of powers at the power of losses."""
+    results, keys = test.results, ("effective_power", "fuel_rate")
+    power, rate = (test.shown(key, results.listings["willans"].columns[key]) for key in keys)
+    loss, idle = (float(test.shown(key, results.summary[key])) for key in ("willans_loss_power", "idle_fuel_rate"))
+    ends = np.array([-loss, 0.0, float(np.max(power))])
+    line = idle * (1 + ends / loss)
+    paper, box = sheet(_INDICATOR)
+    across, up = limits(ends), limits(rate, line)
+    graph = Graph(paper, box, across, up, test.language)
+    graph.frame(round_ticks(*across), round_ticks(*up))
+    paper.segments(np.array([(*graph.point(0.0, up[0]), *graph.point(0.0, up[1]))]), width=0.45)
+    graph.curve("extended", ends[:2], line[:2], DASHED)
+    graph.curve("fuel_rate", ends[1:], line[1:])
+    for x, y in zip(power.tolist(), rate.tolist(), strict=True):
+        paper.dot(*graph.point(x, y), 2.0)
+    for key, x, y in (("willans_loss_power", -loss, 0.0), ("idle_fuel_rate", 0.0, idle)):
+        mark_point(graph, key, x, y, f"{test.symbol(key)} = {test.value(key, results.summary[key])}")
+    test.name_axes(graph, *keys)
+    return paper, {"willans": graph}
 
 
 def chamber_indicator(machine: Drawn) -> Drawing:
