@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "1504f419eb08",
     "formulas": "44847bddb9a7",
-    "quantities": "3e8efa59d97c",
+    "quantities": "925f1b1ae730",
     "defaults": "ad53ff1670a6",
 }
 

@@ -42,10 +42,10 @@ def provenance_data(results: Results) -> dict[str, str]:
     }
 
 
-def provenance(results: Results) -> str:
-    """Return where results come from in one line, for documents that have one for it."""
+def provenance(results: Results, method: str = "") -> str:
+    """Return where results come from in one line; `method`: in other words than its name."""
     data = provenance_data(results)
-    parts = [data["source"], data["method"], f"sha256 {data['machine_file_sha256']}"]
+    parts = [data["source"], method or data["method"], f"sha256 {data['machine_file_sha256']}"]
     return "; ".join(parts if results.machine.digest else parts[:2])
 
 
