@@ -242,7 +242,8 @@ def _crank_gear_lines(machine: Machine, summary: Mapping[str, float], language: 
     if gas:
         source = "measured_gas" if gas.measured else "pieces_of_gas" if gas.calculated is None else "calculated_gas"
         parts.append(translate(f"check.{source}", language, count=len(gas.pieces), cycle=f"{gas.cycle:g}"))
-    parts.append(translate("check.with_masses" if machine.masses else "check.motion_only", language))
+    if machine.masses or not gas:
+        parts.append(translate("check.with_masses" if machine.masses else "check.motion_only", language))
     return [", ".join(parts)]
 
 
