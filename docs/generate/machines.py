@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import crankwork
 import key_pages
-from crankwork.formula.traced_value import in_order
+from crankwork.formula.traced_value import Root, TracedValue, in_order
 from crankwork.quantities import base_key
 from crankwork.quantities.key import key_of
 
@@ -42,12 +43,19 @@ def analysed(name: str) -> crankwork.Results:
 def keys_of(results: crankwork.Results) -> dict[str, str]:
     """Return the plainest key of each quantity in results; one that has an owner tells most."""
     found: dict[str, str] = {}
-    traced = (value.key for value in in_order(results.trace.values()))
+    traced = (value.key for value in _explained(results))
     listed = (key for listing in results.listings.values() for key in listing.columns)
     for key in (*results, *filter(None, traced), *listed):
         quantity = base_key(key)
         found[quantity] = max(found.get(quantity, key), key, key=_tells)
     return found
+
+
+def _explained(results: crankwork.Results) -> Iterator[TracedValue]:
+    """Yield the values of a trace, and of the equations that explanations show beside what is found from them."""
+    values = list(in_order(results.trace.values()))
+    yield from values
+    yield from in_order([part for value in values if isinstance(value.node, Root) for part in value.node.residuals])
 
 
 def _tells(key: str) -> tuple[bool, int]:

@@ -18,7 +18,7 @@ from rules import every_formula
 PINNED = {
     "symbols": "1504f419eb08",
     "formulas": "44847bddb9a7",
-    "quantities": "e5688a11827e",
+    "quantities": "da90798e10e7",
     "defaults": "baf67d61b30e",
 }
 

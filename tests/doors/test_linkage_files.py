@@ -138,7 +138,7 @@ def test_an_engine_with_a_spring_goes_through_every_command(crankwork) -> None:
     Path("gear.toml").write_text(f"{load}\n{template('slider-crank')}", "utf-8")
     answer = crankwork("check", "gear.toml")
     assert (answer.code, answer.err) == (0, "")
-    assert "linkage of moving links: 3 (" in answer.out
+    assert "linkage, moving links (3): " in answer.out
     data = crankwork("run", "gear.toml", "-o", "out", "--no-figures", "--json").results
     assert data["summary"]["static_torque_max"]["value"] > 0
     assert max(data["checks"].values()) < 1e-10

@@ -74,6 +74,8 @@ function begin(data, kind, slide) {
   const filed = new Set(data.sliders?.filed);
   const show = tables && data.tables && showTables(tables, data.tables, columns, cursor, (key) => explanation?.explain(key), filed);
   const machine = /** @type {SVGSVGElement | null} */ (document.querySelector('[data-figure="machine"]'));
+  // where nothing has a course there is nothing to run
+  if (!Object.keys(data.columns).length) for (const one of document.querySelectorAll("#play, #slider, #shown, #tables")) one.setAttribute("hidden", "");
   const motion = bar(cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
   const film = machine && data.film ? new Film(machine, data.film, cursor) : undefined;
   if (film && motion) choose(film, motion);

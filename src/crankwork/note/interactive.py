@@ -158,19 +158,20 @@ def controls(film: Animation, language: Language) -> list[str]:
     rates = "".join(
         f'<option value="{rate}"{" selected" if rate == "1" else ""}>{shown}×' for rate, shown in _RATES.items()
     )
-    parts = [f'<div class="controls" role="group" aria-label="{words("controls", language)}">']
+    views = ""
     if film.views:
         listed = f'<option value="">{words("every_view", language)}' + "".join(
             f'<option value="{" ".join(f"{side:.1f}" for side in box)}">{html.escape(name)}' for name, box in film.views
         )
-        parts.append(f'<label>{words("view", language)} <select id="view">{listed}</select></label>')
-    parts += [
+        views = f'<label>{words("view", language)} <select id="view">{listed}</select></label>'
+    parts = [
         f'<label><input type="checkbox" data-choice="{html.escape(start)}"> {html.escape(capital(name))}</label>'
         for start, name in film.choices.items()
     ]
     return [
+        f'<div class="controls" role="group" aria-label="{words("controls", language)}">',
         *parts,
-        f'<label><input type="checkbox" id="traces"> {words("traces", language)}</label>',
+        f'<label><input type="checkbox" id="traces"> {words("traces", language)}</label>{views}',
         f'<label>{words("rate", language)} <select id="rate">{rates}</select></label></div>',
     ]
 

@@ -329,7 +329,7 @@ def page(
         f'<section id="tables"><h3>{listed}</h3><p><select aria-label="{words("choice", language)}"></select></p>',
         f'<div class="scroll" tabindex="0" role="region" aria-label="{listed}"><table></table></div></section>',
         f'</section><p class="without">{words("without_script", language)}</p>',
-        f"<footer><p>{html.escape(results_method(results, language))}; {html.escape(provenance(results))}</p></footer>",
+        f"<footer><p>{html.escape(provenance(results, results_method(results, language)))}</p></footer>",
         "</main>",
         *drawer(language),
         stored_data_element(data),

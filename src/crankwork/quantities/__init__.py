@@ -146,7 +146,7 @@ _SHAFT = table(
     rim_speed="m/s", rim_stress="MPa", rim_density="kg/m3", rim_section="cm2", rim_ratio="", rim_width="mm",
     rim_thickness="mm", recovery_time="s", recovery_torque="N*m", shaft_power="kW", loop_work="J", loop_number="",
     drawn_area="mm2", work_scale="J/mm2", torque_scale="N*m/mm", angle_scale="deg/mm", stroke_work="J",
-    stroke_angle="deg", stroke_share="", peak_share="", stroke_time="s", stroke_rate="rpm", shear_energy="J/mm2",
+    stroke_angle="deg", stroke_share="", peak_share="", stroke_time="s", shear_energy="J/mm2",
     sheared_area="mm2", hole_diameter="mm", shear_strength="MPa", shearing_force="N", flat_shearing_force="N",
     penetration="", sheared_depth="mm", punch_slope="mm", plate_thickness="mm", cut_width="mm", punch_stroke="mm",
     inertia_on_crank="kg*m2", gear_ratio="", mains_frequency="Hz", pole_pairs="", synchronous_speed="rad/s", slip="",
@@ -181,7 +181,7 @@ _BEARINGS = table(
     shaft_unbalance="kg*m", unbalance_force="N", unbalance_weight="N", unbalance_tangential_force="N",
     shaft_position="mm", journal_share="", main_journal_load="N or MPa",
     # what a load comes to
-    bearing_load="N or MPa", bearing_force_x="N or MPa", bearing_force_y="N or MPa", bearing_load_direction="deg",
+    bearing_load="N or MPa", bearing_force_x="N or MPa", bearing_force_y="N or MPa",
     mean_bearing_load="N or MPa", bearing_load_ratio="", bearing_pressure="MPa", bearing_diameter="mm",
     bearing_length="mm",
     # wear
@@ -283,7 +283,7 @@ _CYCLE = table(
     heat_to_exhaust="kW", heat_unburnt="kW", heat_rest="kW", heat_share="",
     # ideal cycles
     state_pressure="MPa", state_temperature="K", isochoric_heat="J/(kg*K)", heat_added="kJ/kg", heat_rejected="kJ/kg",
-    ideal_work="kJ/kg", thermal_efficiency="", ideal_mean_pressure="MPa", compression_line="MPa", expansion_line="MPa",
+    ideal_work="kJ/kg", thermal_efficiency="", ideal_mean_pressure="MPa",
     # heat release
     burning_progress="", burning_advance="deg", burning_start="deg", burning_duration="deg", burning_shape="",
     burnt_fraction="", burning_rate="", burning_efficiency="", net_heat_rate="J/deg", gross_heat_rate="J/deg",

@@ -42,10 +42,10 @@ def provenance_data(results: Results) -> dict[str, str]:
     }
 
 
-def provenance(results: Results) -> str:
-    """Return where results come from in one line, for documents that have one for it."""
+def provenance(results: Results, method: str = "") -> str:
+    """Return where results come from in one line; `method`: in other words than its name."""
     data = provenance_data(results)
-    parts = [data["source"], data["method"], f"sha256 {data['machine_file_sha256']}"]
+    parts = [data["source"], method or data["method"], f"sha256 {data['machine_file_sha256']}"]
     return "; ".join(parts if results.machine.digest else parts[:2])
 
 
@@ -244,7 +244,8 @@ def _crank_gear_lines(machine: Machine, summary: Mapping[str, float], language: 
     if gas:
         source = "measured_gas" if gas.measured else "pieces_of_gas" if gas.calculated is None else "calculated_gas"
         parts.append(translate(f"check.{source}", language, count=len(gas.pieces), cycle=f"{gas.cycle:g}"))
-    parts.append(translate("check.with_masses" if machine.masses else "check.motion_only", language))
+    if machine.masses or not gas:
+        parts.append(translate("check.with_masses" if machine.masses else "check.motion_only", language))
     return [", ".join(parts)]
 
 

@@ -191,6 +191,11 @@ class Graph:
         left, top, width, height = self.box
         right, bottom = left + width, top + height
         first = len(self.paper.items)
+        if labels[0] and x_ticks.size > 1:
+            # numbers that would touch are left out, zero last
+            number_width = max(text_width(self._number(value, 0), _TICK) for value in x_ticks) + _TICK / 2
+            step = math.ceil(number_width / float(np.ptp(self.across(x_ticks[:2]))))
+            x_ticks = x_ticks[int(np.argmin(np.abs(x_ticks))) % step :: step]
         across, down = self.across(x_ticks), self.down(y_ticks)
         grid = [(x, top, x, bottom) for x in across] + [(left, y, right, y) for y in down]
         self.paper.segments(np.array(grid), colour=LIGHT)

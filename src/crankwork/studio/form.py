@@ -59,7 +59,8 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
         if isinstance(table, TableSpec):
             more = _more(table, path, stated, language)
             group["more"] = [row for row in more if row["key"] not in idle]
-    return list(groups.values())
+    # what stands on title pages is of no interest while the machine changes
+    return sorted(groups.values(), key=lambda group: group["path"] == "document")
 
 
 def _keys(description: Description, kinds: TableSpec) -> Iterator[str]:

@@ -132,10 +132,10 @@ def shell(language: Language) -> str:
         "<main>",
         *_left(language),
         f'<section id="machine" aria-label="{_escaped("page.machine", language)}">',
-        '<div id="film"></div><output id="chip" hidden></output>',
+        '<div id="film"></div><ul id="refusals"></ul><output id="chip" hidden></output>',
         '<p id="turn" hidden></p>',
         f'<div class="tools"><button id="draw" aria-pressed="false">{_text("draw", language)}</button>',
-        f'<p class="hint">{_text("hint", language)}</p></div>',
+        f'<p class="hint" hidden>{_text("hint", language)}</p></div>',
         f'<nav><a href="#description">{_escaped("page.sliders", language)}</a>',
         f'<a href="#diagrams">{_escaped("page.results", language)}</a></nav></section>',
         f'<section id="diagrams" aria-label="{_escaped("page.diagrams", language)}"><div class="tools">',
@@ -197,8 +197,8 @@ def _left(language: Language) -> list[str]:
         f'<button id="save">{_text("save", language)}</button></div>',
         '<div id="form" role="tabpanel" aria-labelledby="form-tab"></div>',
         '<div id="text" role="tabpanel" aria-labelledby="text-tab" hidden><pre id="lines" aria-hidden="true"></pre>',
-        f'<textarea id="source" spellcheck="false" wrap="off" aria-label="{_text("text", language)}"></textarea></div>',
-        '<ul id="refusals"></ul></section>',
+        f'<textarea id="source" spellcheck="false" wrap="off" aria-label="{_text("text", language)}"></textarea>',
+        "</div></section>",
     ]
 
 

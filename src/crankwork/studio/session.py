@@ -312,21 +312,16 @@ class Session:
         }  # fmt: skip
 
     def _error_lines(self, error: CrankworkError) -> list[dict[str, Any]]:
-        """Return errors as the command line prints them, each with its line or 0."""
+        """Return errors as the command line prints them, files by their names alone, each with its line or 0."""
+        lines, places, keys = [in_language(error.args[0], self.language)], [""], [""]
         if isinstance(error, InputError):
             lines = error.lines(lambda message: in_language(message, self.language))
-            entries = zip(lines, error.places, error.problems, strict=True)
-            return [
-                {
-                    "text": line,
-                    "key": problem.key,
-                    "line": int(match[1]) if (match := _LINE.search(place) or _PLACE.match(line)) else 0,
-                }
-                for line, place, problem in entries
-            ]
-        text = in_language(error.args[0], self.language)
-        match = _PLACE.match(text)
-        return [{"text": text, "key": "", "line": int(match[1]) if match else 0}]
+            places, keys = error.places, [problem.key for problem in error.problems]
+        matches = (_LINE.search(place) or _PLACE.match(line) for place, line in zip(places, lines, strict=True))
+        numbers = (int(match[1]) if match else 0 for match in matches)
+        shown = (line.replace(str(self._path), self._path.name) if self._path else line for line in lines)
+        named = zip(shown, keys, numbers, strict=True)
+        return [{"text": text, "key": key, "line": number} for text, key, number in named]
 
 
 def _places(results: Results) -> dict[str, tuple[float, float]]:
