@@ -33,9 +33,7 @@ FILES = machine_files("examples", "tests/machines")
 ENGINES = [
     name
     for name, text in FILES.items()
-    if "rod" in (values := tomllib.loads(text))
-    and "test" not in values
-    and "equivalent" not in values["rod"]
+    if "rod" in (values := tomllib.loads(text)) and "test" not in values and "equivalent" not in values["rod"]
 ]
 WAYS = {
     "again": written,

@@ -312,14 +312,10 @@ _SIZES = ("journal_length", "journal_diameter", "journal_bore", "pin_length", "p
 
 
 def _throw_size(shaft: ElasticShaft, name: str, radius: TracedValue | None) -> TracedValue:
-    value = getattr(shaft.throw, name)
-    if name == "radius":
-        return (
-            radius
-            if value is None and radius is not None
-            else given("crank_radius", value, f"{shaft.path}.throw.radius")
-        )
-    return given(name, value, f"{shaft.path}.throw.{name}") if value else absent(name)
+    value, key = getattr(shaft.throw, name), "crank_radius" if name == "radius" else name
+    if name == "radius" and value is None and radius is not None:
+        return radius
+    return given(key, value, f"{shaft.path}.throw.{name}") if value else absent(key)
 
 
 # range of speeds where none is stated, over that of the machine, and points of it
@@ -449,8 +445,7 @@ def _rings(model: TorsionModel) -> list[str]:
 
 def _section(shaft: ElasticShaft) -> tuple[TracedValue, TracedValue] | None:
     """Return outer diameter and bore where a shaft is weakest."""
-    sections = [(part.diameter, part.bore, shaft.path if len(shaft.parts) == 1 and shaft.diameter else
-                 f"{shaft.path}.parts[{index}]") for index, part in enumerate(shaft.parts, start=1)]  # fmt: skip
+    sections = [(part.diameter, part.bore, _part_path(shaft, index)) for index, part in enumerate(shaft.parts)]
     if shaft.diameter is not None and not sections:
         sections = [(shaft.diameter, shaft.bore, shaft.path)]
     if shaft.throw is not None:
@@ -595,14 +590,10 @@ def vibration_notices(system: Vibrating, radius: float | None) -> Iterator[Notic
             yield Notice("torsion_free_ring", {"name": name})
     if system.excitation.waves and not system.is_damped:
         yield Notice("torsion_undamped", {})
-    throws: Sequence[ElasticShaft] = [item for item in system.trace.model.shafts.values() if item.throw is not None]
-    for shaft in throws[:1]:
-        throw = shaft.throw
-        if (
-            throw is not None
-            and (throw.radius or radius or math.inf) < (throw.pin_diameter + throw.journal_diameter) / 2
-        ):
-            yield Notice("torsion_overlap", {"path": shaft.path})
+    paths = {item.path: item.throw for item in system.trace.model.shafts.values() if item.throw is not None}
+    for path, throw in paths.items():
+        if (throw.radius or radius or math.inf) < (throw.pin_diameter + throw.journal_diameter) / 2:
+            yield Notice("torsion_overlap", {"path": path})
 
 
 def shaft_alone(machine: Machine, grid: CrankGrid | None = None) -> Results:
@@ -692,31 +683,26 @@ def _nodes(
                 distance = _along(shaft.parts, place)
                 distances[key] = TracedValue(ProcedureValue(distance, "node", (a, b)), key)
                 if len(shaft.parts) == 1:
-                    first_length = next(
-                        operand
-                        for operand in values[f"torsional_stiffness.{name}"].node.operands
-                        if operand.key == f"equivalent_length.{name}"
-                    )
-                    own = next(item for item in first_length.node.operands if item.key == "shaft_length")
+                    own = _length(_part_path(shaft, 0), shaft.parts[0])
                     distances[key] = (own * a / (a - b)).named(key)
             yield (mode, name), distances
         for name in at_rest(trace.names, shape):
             yield (mode, name), {}
 
 
-def _compliance(parts: tuple[object, ...]) -> float:
+def _compliance(parts: tuple[ShaftPart, ...]) -> float:
     """Return what the twist of the parts of a shaft is proportional to. [1/m3]"""
-    return math.fsum(part.length / (part.diameter**4 - part.bore**4) for part in parts)  # type: ignore[attr-defined]
+    return math.fsum(part.length / (part.diameter**4 - part.bore**4) for part in parts)
 
 
-def _along(parts: tuple[object, ...], place: float) -> float:
+def _along(parts: tuple[ShaftPart, ...], place: float) -> float:
     """Return how far along a shaft a part of its twist is reached. [1/m3] -> [m]"""
     distance = 0.0
     for part in parts:
         own = _compliance((part,))
         if place <= own:
-            return distance + float(part.length) * place / own  # type: ignore[attr-defined]
-        place, distance = place - own, distance + float(part.length)  # type: ignore[attr-defined]
+            return distance + part.length * place / own
+        place, distance = place - own, distance + part.length
     return distance
 
 
