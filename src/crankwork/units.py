@@ -415,7 +415,7 @@ def _of_weight(spelling: str, dimensions: tuple[str, ...]) -> str:
     unit = UNITS.get(spelling)
     if unit is not None and {unit.dimension, _is_also(unit, spelling)} & {*dimensions}:
         return spelling
-    weight = known_unit(re.sub(r"\bкг\b", "кгс", re.sub(r"\b(kg|lb|oz)s?\b", r"\1f", spelling)))
+    weight = known_unit(re.sub(r"\bкг(?=\W)", "кгс", re.sub(r"\b(kg(?=\W)|lb|oz)s?\b", r"\1f", spelling)))
     fits = weight and {UNITS[weight].dimension, _is_also(UNITS[weight], weight)} & {*dimensions}
     return weight if fits else spelling
 
