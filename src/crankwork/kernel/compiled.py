@@ -113,7 +113,8 @@ class Kernel:
         before = partial(Kernel, angles_at=angles_at, cycle=cycle, start=start, is_for_few=is_for_few)
         widths = [width for width in _WIDTHS if width * parts <= cycle] or _WIDTHS[-1:]
         # forces that nearly vanish turn within thousandths of a degree: after the first width panels are divided
-        is_divided = bool(designs.roots) and not delays
+        self.is_iterated = bool(designs.roots)
+        is_divided = self.is_iterated and not delays
         divided: Edges | None = None
         for width in (cycle,) if steps else [widths[0]] * _DIVISIONS if is_divided else widths:
             grid, edges = _grid(breaks, delays, width, steps) if divided is None else (_grid_between(divided), divided)

@@ -18,6 +18,7 @@ from crankwork.description.document import Description, NumericField, numeric_fi
 from crankwork.description.machine_file import Setting
 from crankwork.description.value_types import DEVIATIONS_OF_TOLERANCE
 from crankwork.errors import CrankworkError
+from crankwork.formula.traced_value import Component, in_order
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage, Language, in_language, translate
 from crankwork.locale.numbers import number, unit_name
@@ -38,8 +39,8 @@ _CORNERS = 8
 _FAR, _CHECKED = 5.0, 4
 # number of draws from which Numba compiles the calculation
 _MANY = 50_000
-# draws of all numbers that check the second-order model
-_TEST_DRAWS = 24
+# draws of all numbers that check the second-order model, and the most where values with friction are analysed
+_TEST_DRAWS, _ANALYSED = 24, 100
 # largest root-mean-square error of the model, as a fraction of the deviation
 _MISSED = 0.08
 _ZERO_TOLERANCE = 1e-12
@@ -173,8 +174,9 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
         check_single(stated, key)
     neighbours.near = near = _Near(list(known), np.array(list(known.values())), math.radians(stated.machine.cycle))
     middle = near.middle
-    # an analysis with friction takes a second, and a few values are compiled sooner than analysed
-    if keys and "friction_power" in stated.trace:
+    # a few values with friction are compiled sooner than analysed
+    is_slow = "friction_power" in stated.trace
+    if keys and is_slow:
         neighbours.compile(np.arange(len(near.names)), samples)
     first, second = neighbours.alone(told)
     variances = first**2 + second**2 / 2
@@ -189,7 +191,10 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
     worst = _Worst(neighbours, first, second, ends)
     if is_odd.any():
         odd = np.flatnonzero(is_odd)
-        neighbours.compile(np.setdiff1d(odd, neighbours.known), samples)
+        left = np.setdiff1d(odd, neighbours.known)
+        neighbours.compile(left[[not _is_iterated(stated, near.names[index]) for index in left]], samples)
+        if is_slow and len(np.setdiff1d(odd, neighbours.known)):
+            samples = min(samples, _ANALYSED)
         more = neighbours.draws(samples - _TEST_DRAWS)
         draws, drawn = np.concatenate([draws, more]), np.concatenate([drawn, neighbours.values(more, odd, told)])
         reasons += neighbours.refused.values()
@@ -212,6 +217,12 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
                 mean if is_away else None,
             )  # fmt: skip
     return Spreads(stated, neighbours.given, spreads, samples if is_odd.any() else 0, within, by_kind(reasons))
+
+
+def _is_iterated(results: Results, key: str) -> bool:
+    """Return whether a value depends on unknowns that are solved for, which compile slowly and for few designs."""
+    known = results.trace.get(key)
+    return known is not None and any(isinstance(operand.node, Component) for operand in in_order([known]))
 
 
 class _Near(NamedTuple):

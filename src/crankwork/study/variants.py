@@ -41,6 +41,8 @@ _OFFSET = 1e-3
 _NEARER = (1.0, 0.5, 0.25, 0.1, 0.01)
 # calculations of one machine file, and designs drawn to see whether they have other laws
 _MAX_KERNELS, _MAX_FAILURES, _DRAWN = 8, 3, 24
+# fraction of designs from which another calculation with friction is worth compiling
+_WORTHWHILE = 0.1
 # designs of one batch of a thread
 _BATCH_SIZE = 4096
 # designs analysed to check the compiled calculation
@@ -129,6 +131,8 @@ class MachineVariants:
                 if part == 1.0 or is_known[0]:
                     self._kernels.append(kernel)
                     self.reason, self.at_key, unknown = "", "", ~is_known
+                    # friction has so many laws that the next ones would know hardly more
+                    failures += _MAX_FAILURES * (kernel.is_iterated and is_known.mean() < _WORTHWHILE)
                 else:
                     failures += 1
             left = left[:, unknown]
