@@ -225,8 +225,8 @@ def test_heats_and_cooling_water() -> None:
     heat = 2 * mass * 1005 * 300 * (4 ** (0.3 / 1.3) - 1)
     assert found["cooler_heat"] == pytest.approx(heat, rel=1e-12)
     assert found["specific_cooler_heat.1"] == pytest.approx(heat / 2 / mass, rel=1e-12)
-    assert found["water_flow"] == pytest.approx(heat / (4187 * 20), rel=1e-12)
-    flow = f'water_flow = "{heat / (4187 * 20) * 3600!r} kg/h"'
+    assert found["water_flow"] == pytest.approx(heat / (4186.8 * 20), rel=1e-12)
+    flow = f'water_flow = "{heat / (4186.8 * 20) * 3600!r} kg/h"'
     assert analysed(text.format(flow))["water_rise"] == pytest.approx(20.0, rel=1e-12)
 
 

@@ -161,7 +161,7 @@ def build_layout(
     cycle = 180.0 * strokes
     if throws is not None:
         pins = _pins_of_throws(seats, throws)
-        order = checked_order(order or _allowed_order(_dead_centres(seats, pins), cycle), banks.cylinders)
+        order = checked_order(order or _allowed_orders(_dead_centres(seats, pins), cycle)[0], banks.cylinders)
     else:
         order = checked_order(order, banks.cylinders)
         pins = _pins_of_even_firing(banks, seats, order, cycle, uneven=uneven)
@@ -273,10 +273,9 @@ def _or(first: str, other: str) -> ErrorMessage:
     return ErrorMessage("way_or", first=first, other=other)
 
 
-def _allowed_order(dead_centres: Sequence[float], cycle: float) -> Sequence[int]:
-    """Return an even order of a crankshaft, or another one if it has none."""
-    even = even_orders(dead_centres, cycle, limit=1)
-    return even[0] if even else possible_order(dead_centres, cycle)
+def _allowed_orders(dead_centres: Sequence[float], cycle: float) -> Sequence[tuple[int, ...]]:
+    """Return even orders of a crankshaft, or another one if it has none."""
+    return even_orders(dead_centres, cycle, limit=3) or (possible_order(dead_centres, cycle),)
 
 
 def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> list[float]:
@@ -286,12 +285,10 @@ def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> l
 def _firing(
     seats: Sequence[CylinderPosition], pins: Sequence[float], order: tuple[int, ...], cycle: float
 ) -> tuple[float, ...]:
-    """Return the firing angles of the order; raise LayoutError with possible orders and a crank for this one.
-
-    Two fire at once where the crankshaft allows nothing else, as with opposed cranks of opposed cylinders.
-    """
+    """Return the firing angles of the order; raise LayoutError with possible orders and a crank for this one."""
     dead_centres = _dead_centres(seats, pins)
-    possible = even_orders(dead_centres, cycle, limit=3) or [possible_order(dead_centres, cycle)]
+    possible = _allowed_orders(dead_centres, cycle)
+    # two fire at once where nothing else is allowed, as with opposed cranks of opposed cylinders
     together = firing_angles(possible[0], dead_centres, cycle) is None
     angles = firing_angles(order, dead_centres, cycle, together=together)
     if angles:

@@ -111,10 +111,6 @@ def oil_hole(sums: ArrayLike) -> OilHole:
     return OilHole(float((start + (length - 1) / 2) * step % 360), length * step, least)
 
 
-# ratio of the peaks of a load that is zero, but for rounding, where it does not have its direction
-_NO_LOAD = 1e-9
-
-
 class LoadReversal(NamedTuple):
     """Duration and size of the load on a bearing along the rod, in both directions."""
 
@@ -128,7 +124,7 @@ class LoadReversal(NamedTuple):
     @property
     def duration(self) -> float:
         """The shorter of the two stretches, 0 where the load never has one of the directions. [deg]"""
-        return min(self.compression, self.tension) if self.ratio > _NO_LOAD else 0.0
+        return min(self.compression, self.tension) if self.ratio > 1e-9 else 0.0
 
     @property
     def ratio(self) -> float:

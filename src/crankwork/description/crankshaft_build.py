@@ -32,7 +32,7 @@ _TABLES = ("shaft", "bearings", "balance", "torsion")
 # of bearings, what any linkage has whose crank turns fully
 _OF_LINKAGE = {"pins", "rays"}
 # throws of two cylinders without a customary order
-_PAIRS = {"inline": None, "V": [0.0], "W": [0.0], "boxer": [0.0, 180.0]}
+_PAIRS = {("V", 2, False): [0.0], ("boxer", 2, False): [0.0, 180.0]}
 
 
 def build_engine(
@@ -108,9 +108,8 @@ def _layout(
         if usual is not None:
             order, throws = list(usual.order), throws or list(usual.throws)
         elif throws is None:
-            is_twin = cylinders == 2 and not table["own_throws"]
-            throws = _PAIRS[kind] if is_twin else [0.0] * (cylinders == len(table["bank_angles"]))
-            if not throws:
+            throws = _PAIRS.get((kind, cylinders, bool(table["own_throws"])))
+            if throws is None:
                 raise LayoutError("engine.firing_order", _no_order(table, strokes))
     options: dict[str, Any] = {
         "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"] or is_pair, "tops": tops,

@@ -410,12 +410,12 @@ class TableSpec(NamedTuple):
             meant = f"{path.removesuffix(name)}{latin}"
             reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=meant)
             return
-        meant = functools.reduce(lambda text, words: text.replace(*words), _OF_BOOKS, name)
+        meant = functools.reduce(lambda text, words: text.replace(words[0], words[1]), _OF_BOOKS, name)
         own = [key for key in self.keys if f"_{key}".endswith((f"_{meant}", f"_{name}"))]
         nearest = own[0] if len(own) == 1 else "" if own else nearest_name(name, tuple(self.keys))
         tables = {} if own or isinstance(value, dict) else {key: spec.kind for key, spec in reader.tables.items()}
         others = [f"{key}.{name}" for key, kind in tables.items() if isinstance(kind, TableSpec) and name in kind.keys]
-        if 0 < len(others) < _MANY:
+        if len(others) in {1, 2, 3}:
             reader.add_error(path, ErrorMessage("unknown_key_near", nearest=", ".join(others)), meant=others[0])
         elif nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
@@ -435,10 +435,10 @@ class TableSpec(NamedTuple):
         # what is there tells which alternative is meant
         depended = {other for stated in value if stated in self.keys for other in self.keys[stated].only}
         alternatives = tuple(key for key in alternatives if key in depended) or alternatives
-        needs = [self.keys[stated].only.get(name) for stated in value if stated in self.keys]
-        examples = [entry._replace(example=shown(wanted[0])) for wanted in needs if wanted]
-        advice = tuple(_advice(key, self.keys[key], prefix) for key in alternatives)
-        advice = (_advice(name, examples[0], prefix),) if examples else advice
+        fixed = [
+            f"{name} = {shown(fit[0])}" for stated in value if (fit := self.keys.get(stated, entry).only.get(name))
+        ]
+        advice = tuple(fixed[:1] or (_advice(key, self.keys[key], prefix) for key in alternatives))
         reader.add_error(f"{prefix}{alternatives[0]}", ErrorMessage("missing", advice=advice))
 
     def schema(self, language: Language, /) -> dict[str, Any]:
@@ -536,14 +536,9 @@ def no_effect_message(key: str, value: object, wanted: tuple[str, ...]) -> Error
     return ErrorMessage("only_with", key=key, found=shown(value), needed=tuple(map(shown, wanted[:5])))
 
 
-# words of books for keys: a power, torque or mean pressure at the shaft is that of the brake
-_OF_BOOKS = (
-    ("brake", "effective"), ("calorific", "heating"), ("moment_of_inertia", "inertia"), ("diameter", "bore"),
-    ("swept_volume", "displacement"), ("rpm", "speed"), ("bmep", "effective_mean_pressure"),
-    ("imep", "indicated_mean_pressure"), ("bsfc", "effective_fuel_consumption"),
-)  # fmt: skip
-# as many tables with a key of the name tell nothing
-_MANY = 4
+# words of books for keys
+_OF_BOOKS = (("brake", "effective"), ("calorific", "heating"), ("moment_of_inertia", "inertia"), ("diameter", "bore"),
+             ("swept_volume", "displacement"), ("bmep", "effective_mean_pressure"))  # fmt: skip
 
 
 def nearest_name(word: str, options: Iterable[str]) -> str:

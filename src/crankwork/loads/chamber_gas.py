@@ -350,8 +350,7 @@ def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, l
     if cycle > chamber.cycle:
         notices.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
     # valves open by the volume, and strokes begin, wherever the dead centre is
-    counts = counts_from_top(chamber.points, chamber.pieces, by_law=law is not None)
-    is_from_top = chamber.valves is not None or counts
+    is_from_top = chamber.valves is not None or counts_from_top(chamber.points, chamber.pieces, by_law=law is not None)
     begins = chamber.delay + (_ends_of_stroke(space, chamber.delay)[0] if is_from_top else 0.0)
     # a calculated cycle comes later as that of a cylinder does, so that its jumps keep their sides
     later = chamber.delay if chamber.calculated is not None else 0.0

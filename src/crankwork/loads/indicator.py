@@ -239,10 +239,7 @@ def solve_diagram(
 
 
 def counts_from_top(points: Mapping[str, DiagramPoint], pieces: Sequence[Piece], *, by_law: bool = False) -> bool:
-    """Return whether a diagram begins where the volume is least: a table over the stroke, or points without angles.
-
-    `by_law`: whether the volume may rest there, so that points say where they begin.
-    """
+    """Return whether a diagram begins where the volume is least: a table, or points without angles or law."""
     first = points.get(pieces[0].points[0]) if pieces else None
     if first is None or first.stroke != 0.0:
         return False
