@@ -493,7 +493,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"method\.rod", lambda known, stated, _: "" if not _is_engine(stated) or _mass_of(known, "rod_inertia_excess")
      else "unused"),
     (r"method\.inertia_rod_ratio", lambda known, stated, _: ""
-     if _is_engine(stated) and not known.method.is_exact else "unused"),
+     if _is_engine(stated) and _has_mass(known) and not known.method.is_exact else "unused"),
     (r"chambers\.[^.]+\.pressures", lambda _, stated, path: "unused" if f"{path[:-9]}cycle.kind" in stated else ""),
     (_ABOUT, _idle_about),
     (r"links\..+\.(inertia|radius_of_gyration)", _idle_inertia),
