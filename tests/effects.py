@@ -101,7 +101,8 @@ def alternatives(value: Any, kind: object) -> Iterator[Any]:
     while isinstance(kind, NameOr | OneForAll | OneOrMore):
         kind = kind.other if isinstance(kind, NameOr) else kind.entry
     if isinstance(kind, InertiaKind):
-        kind = kind.quantity
+        # of a multiple of m l^2 another one is meant by no file
+        kind = kind.quantity if not isinstance(value, str) or "l^2" not in value else None
     elif isinstance(kind, NumberOr | WordOr):
         inner = [getattr(kind, name) for name in kind._fields if name in ("number", "quantity", "words")]
         kind = next((one for one in inner if isinstance(one, Quantity) == isinstance(value, str)), None)

@@ -7,6 +7,7 @@ import math
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from numbers import Real
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from crankwork.cylinders.layout import Bearings, Layout, PinBearing, Shaft
@@ -47,6 +48,8 @@ __all__ = [
     "TransferTable", "Transient",
 ]  # fmt: skip
 _TURN = 360.0
+# of drivers and dyads
+_LENGTHS = ("radius", "length", "length_a", "length_b")
 
 
 class InputNumber(NamedTuple):
@@ -501,8 +504,11 @@ class Machine:
             "angular_acceleration": (self.angular_acceleration, -math.inf),
             "table_step": (self.table_step, sys.float_info.min),
         }
+        for number, part in enumerate((self.mechanism.driver, *self.mechanism.dyads)):
+            place = f"{type(part).__name__}[{number}]"
+            limits |= {f"{place}.{name}": (value, 0.0) for name, value in vars(part).items() if name in _LENGTHS}
         for name, (value, low) in limits.items():
-            if not isinstance(value, int | float) or not math.isfinite(value) or value < low:
+            if not isinstance(value, Real) or not math.isfinite(value) or value < low:
                 kind = "object_number" if low < 0 else "object_positive"
                 raise CrankworkError(ErrorMessage(kind, name=name, value=str(value)[:40]))
         for load in self.loads:

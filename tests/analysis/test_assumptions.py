@@ -358,6 +358,9 @@ method.rod = "two-mass"
 balance.rotating_share = 0.5
 """
     assert idle(analyse(read_machine(text))) == {"method.rod": "unused"}
+    ratio = text + "method.inertia_rod_ratio = 0.3\n"
+    assert "method.inertia_rod_ratio" in idle(analyse(read_machine(ratio)))
+    assert "method.inertia_rod_ratio" not in idle(analyse(read_machine(ratio), method="textbook"))
     light = text.replace(', mass = "1 kg", small_end_share = 0.3', "").replace("piston.mass", "piston . mass")
     assert idle(analyse(read_machine(light)))["balance.rotating_share"] == "no_rotating_mass"
     assert mistold(text, ROOT) == []

@@ -6,6 +6,7 @@ d34b2ae7e5e6051f7c87531ebc73b154b082d05b, Fundamental_of_internal_combustion_eng
 """
 
 import math
+from pathlib import Path
 
 import pytest
 
@@ -52,6 +53,13 @@ SIZES = {
         math.cbrt(4 * 0.5e-3 / 3.14),
     ),
 }
+
+
+def test_a_stroke_beside_a_wanted_power_stays_as_stated() -> None:
+    text = Path(__file__).parents[1].joinpath("machines", "wanted-power.toml").read_text("utf-8")
+    results = analysed(text.replace("[crank]", '[crank]\nstroke = "137 mm"'))
+    assert results["stroke"] == pytest.approx(0.137)
+    assert "cycle_rounded_size" not in {notice.code for notice in results.notices}
 
 
 @pytest.mark.elsewhere

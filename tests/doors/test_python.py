@@ -177,6 +177,17 @@ def test_objects_are_refused_as_files_are() -> None:
                     replace(machine, **{key: value})
 
 
+def test_lengths_languages_and_areas_that_there_are_not_are_refused(linkage: crankwork.Results) -> None:
+    for lengths in ((-0.1, 0.3, 0.25, 0.2), (0.1, -0.3, 0.25, 0.3), (0.1, 0.3, float("nan"), 0.3)):
+        with pytest.raises(crankwork.CrankworkError, match="is a number greater than zero"):
+            crankwork.Machine(crankwork.four_bar(*lengths), speed=10.0)
+    assert crankwork.Machine(crankwork.four_bar(*np.float32([0.1, 0.3, 0.25, 0.3])), speed=np.int64(10)).speed == 10
+    with pytest.raises(crankwork.CrankworkError, match="piston_area"):
+        crankwork.summary_text(linkage, per_area=True)
+    with pytest.raises(ValueError, match="language: de is not possible; write en, ru or vi"):
+        crankwork.summary_text(linkage, language="de")  # type: ignore[arg-type]
+
+
 def test_angles_and_methods_are_plain_and_what_is_none_is_told() -> None:
     engine = crankwork.Description(crankwork.template("engine"))
     found = crankwork.analyse(engine, [0, 33, 720], method="series:4")

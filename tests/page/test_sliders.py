@@ -278,7 +278,7 @@ def test_the_numbers_of_the_browser_are_those_of_the_tables(slid):
 
 REFUSED = [
     (["crank.sped"], "did you mean speed"),
-    (["title"], "not a number"),
+    (["title"], "--slider title: is not a single number"),
     (["crank.speed", "crank.speed=1..9000rpm"], "stands twice"),
     (["crank.speed=9..3rpm"], "write the smaller number first"),
     (["crank.speed=4000..6000rpm"], "take a range around it"),

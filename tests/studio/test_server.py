@@ -137,6 +137,8 @@ def test_what_fails_in_a_calculation_is_told_and_the_next_one_is_answered(monkey
     from crankwork.studio import server
     from crankwork.studio.session import Session
 
+    for wrong in ({"fields": []}, {"wide": "x"}):
+        assert server._request(json.dumps({"n": 1, "do": "show", "text": "", **wrong})) is None
     rooms = server.ServerState(server.StartupOptions(""), "en")
     studio = Session("en")
     monkeypatch.setattr(studio, "_show", lambda _: 1 / 0)

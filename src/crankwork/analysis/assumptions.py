@@ -220,10 +220,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (_ROUNDED, lambda results, stated, path: not _idle_convention(path, stated, results)),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
     (r"torsion\.modulus", lambda results, *_: "torsion.modulus" in leaves(results)),
-    # undamped modes have no damping
-    (r"torsion\.orders", lambda results, *_: _counts_orders(results)),
-    (r"torsion\..*\.(damping|loss_factor)", lambda results, *_: _vibrates(results)
-     or "damped_modes" in results.listings),
+    (r"torsion\.(orders|.*\.(damping|loss_factor))", lambda *known: not _idle_torsion(*known)),
     (r"friction\.circle|balance\.rotating_share|.*\.strokes\[\d+\]\.(shape|peak)",
      lambda results, stated, path: not _idle(path, stated, results, ())),
 )  # fmt: skip
@@ -298,12 +295,11 @@ def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace
     return "weights_off" if path == "method.gravity" and not _has_weights(results) else "unused"
 
 
-def _vibrates(results: Results) -> bool:
-    return any(key.startswith("vibration_amplitude") for key in results.summary)
-
-
-def _counts_orders(results: Results) -> bool:
-    return _vibrates(results) or "critical_speeds" in results.listings
+def _idle_torsion(results: Results, _: object, path: str) -> str:
+    """Orders make critical speeds, and undamped modes have no damping."""
+    listing = "critical_speeds" if path == "torsion.orders" else "damped_modes"
+    vibrates = any(key.startswith("vibration_amplitude") for key in results.summary)
+    return "" if vibrates or listing in results.listings else "unused"
 
 
 def _idle_body(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
@@ -474,8 +470,8 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"(fixed_points|guides)\..*", _idle_place),
     (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
     (r"flywheel\.(fluctuation|percent)", _idle_wheel),
-    (r"flywheel\.(radius_of_gyration|rim\..*)", lambda results, *_: _idle_wheel(results)
-     if results.machine.drive.fluctuation is not None else ""),
+    (r"flywheel\.(radius_of_gyration|rim\..*)", lambda results, _, path: ""
+     if results.machine.drive.fluctuation is None and path in leaves(results) else _idle_wheel(results)),
     (r"cylinder\.piston_rod_diameter", lambda results, stated, _: ""
      if "gas.back_pressure" in stated or results.machine.test is not None else "unused"),
     # places of the links of one that is drawn turn with it
@@ -490,13 +486,14 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
      lambda known, *_: "" if _mass_of(known, "crank", "rod_big_end") else "no_rotating_mass"),
     (r"efficiency\.losses", _idle_losses),
     (r"transfer\.bodies\..*\.(mass|inertia)", _idle_body),
-    (r"torsion\.orders", lambda results, *_: "" if _counts_orders(results) else "unused"),
+    (r"torsion\.orders", _idle_torsion),
     (r"torsion\.reference_diameter", lambda results, _, path: "" if path in leaves(results) else "unused"),
     (r"rotor\.bearings.*", lambda known, *_: "" if any(key.startswith("bearing_load") for key in known.trace)
      else "unused"),
     (r"method\.rod", lambda known, stated, _: "" if not _is_engine(stated) or _mass_of(known, "rod_inertia_excess")
      else "unused"),
-    (r"method\.inertia_rod_ratio", lambda _, stated, __: "" if _is_engine(stated) else "unused"),
+    (r"method\.inertia_rod_ratio", lambda known, stated, _: ""
+     if _is_engine(stated) and _has_mass(known) and not known.method.is_exact else "unused"),
     (r"chambers\.[^.]+\.pressures", lambda _, stated, path: "unused" if f"{path[:-9]}cycle.kind" in stated else ""),
     (_ABOUT, _idle_about),
     (r"links\..+\.(inertia|radius_of_gyration)", _idle_inertia),

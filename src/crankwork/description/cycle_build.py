@@ -188,7 +188,7 @@ def _data(table: Values, cylinder: CylinderSize, angle: float, timing: Timing, p
     """Return the data of a calculation by Grinevetsky and Mazing."""
     size: dict[str, Any] = {}
     if "power" in table:
-        size["rounds_size"] = True
+        size["rounds_size"] = not (cylinder.bore or cylinder.stroke)
     elif cylinder.bore and cylinder.stroke:
         size |= {"bore": cylinder.bore, "stroke": cylinder.stroke, "lengths": cylinder.offset}
     loss = table["mechanical_loss"]
@@ -258,11 +258,12 @@ def _lost_stroke(table: Values, lengths: SliderCrank | None, timing: Timing, ang
 
 
 def _sized(values: Values, cycle: CalculatedCycle) -> Values:
-    """Return the values with the bore and stroke required for a power, in whole millimetres."""
+    """Return the values with the bore and stroke required for a power, in whole millimetres, unless they are stated."""
     crank, cylinder = values["crank"], values["cylinder"]
-    radius = crank["radius"] or MeasuredValue(round(cycle.values["stroke"], 3) / 2, "length")
+    if _stroke(crank) is None:
+        crank = crank.but(radius=MeasuredValue(round(cycle.values["stroke"], 3) / 2, "length"))
     bore = cylinder["bore"] or MeasuredValue(round(cycle.values["bore"], 3), "length")
-    return values.but(crank=crank.but(radius=radius), cylinder=cylinder.but(bore=bore))
+    return values.but(crank=crank, cylinder=cylinder.but(bore=bore))
 
 
 def heat_release_data(table: Values, angle: float, size: CylinderSize) -> HeatReleaseData:

@@ -22,6 +22,8 @@ _LINE = re.compile(r'^"?([^"#=\s]+)"? = "(.*)"$', re.MULTILINE)
 @functools.cache
 def texts(room: str, language: Language) -> MappingProxyType[str, str]:
     """Return all texts of a file by name."""
+    if language not in LANGUAGES:
+        raise ValueError(ErrorMessage("option_choice", option="language", given=str(language)[:40], choices=LANGUAGES))
     written = read_resource("locale", language, f"{room}.toml")
     room_texts = dict(_LINE.findall(written))
     if "\\" in written:

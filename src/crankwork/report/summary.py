@@ -52,7 +52,7 @@ def provenance(results: Results, method: str = "") -> str:
 @in_own_units
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
     """Return the summary as plain data: where it comes from, value and unit by key, checks and notices."""
-    area = results.summary["piston_area"] if per_area else None
+    area = results.value("piston_area") if per_area else None
     return {
         **provenance_data(results),
         "summary": {
@@ -73,7 +73,7 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
 @in_own_units
 def summary_text(results: Results, *, language: Language = "en", per_area: bool = False) -> str:
     """Return the summary as aligned text."""
-    area = results.summary["piston_area"] if per_area else None
+    area = results.value("piston_area") if per_area else None
     lines = [results.machine.title] if results.machine.title else []
     lines.append(f"{translate('report.method', language)}: {results_method(results, language)}")
     if per_area:

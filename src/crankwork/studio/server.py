@@ -500,6 +500,8 @@ def _request(message: str) -> dict[str, Any] | None:
     fields = data.get("fields", {})
     is_valid = (
         isinstance(data.get("before", {}), dict)
+        and isinstance(fields, dict)
+        and isinstance(data.get("wide", 0), int | float)
         and isinstance(listed, list)
         and all(isinstance(name, str) for name in listed)
     )
