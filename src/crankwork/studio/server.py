@@ -498,12 +498,8 @@ def _request(message: str) -> dict[str, Any] | None:
         return None
     listed = data.get("figures") or []
     fields = data.get("fields", {})
-    is_valid = (
-        isinstance(data.get("before", {}), dict)
-        and isinstance(listed, list)
-        and all(isinstance(name, str) for name in listed)
-    )
-    return data if is_valid and all(isinstance(value, str) for value in fields.values()) else None
+    is_valid = isinstance(data.get("before", {}), dict) and isinstance(listed, list)
+    return data if is_valid and all(isinstance(text, str) for text in (*listed, *fields.values())) else None
 
 
 def _answer(state: ServerState, session: Session, request: dict[str, Any]) -> dict[str, Any]:
