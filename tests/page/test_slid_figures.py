@@ -134,6 +134,15 @@ def test_a_curve_is_not_taken_for_another_that_it_equals_in_the_designs_compared
     assert followed.figure("sliders")[0] == []
 
 
+@pytest.mark.slow
+def test_a_block_follows_its_pin_where_its_guide_keeps_its_direction():
+    description = crankwork.Description(crankwork.template("toggle-press"))
+    results = crankwork.analyse(description.machine())
+    joints = LivePage(moved(description, ["crank.radius"], (), results), "en").machine()[1]
+    assert joints["labels"]["block.ram"] == ["joint.D", 0.0, 0.0]
+    assert LivePage(moved(description, ["guides.bed.angle=-92..-88deg"], (), results), "en").machine()[1] is None
+
+
 def test_curves_of_one_name_in_graphs_side_by_side_follow_each_its_own_or_are_pale(slid):
     page = slid("V8")
     loads = page.locator("[data-figure=main_journal_polar] path[data-curve=load]")

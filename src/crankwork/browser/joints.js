@@ -33,7 +33,7 @@ export class Joints {
       return { group, joints, own, end, home: [group.innerHTML, group.getAttribute("transform") ?? ""] };
     });
     const named = (/** @type {string} */ start) => [...film.svg.querySelectorAll(`[data-part^="${start}"]`)];
-    this.groups = new Map([...named("joint."), ...named("text.")].map((one) => [/** @type {SVGGElement} */ (one).dataset.part ?? "", one]));
+    this.groups = new Map([...named("joint."), ...named("text."), ...named("block.")].map((one) => [/** @type {SVGGElement} */ (one).dataset.part ?? "", one]));
     this.homes = [...this.groups.values()].map((one) => ({ one, at: one.getAttribute("transform") ?? "" }));
     // circles of cranks are those of the file
     for (const one of film.svg.querySelectorAll(":scope > path[stroke-dasharray]")) one.classList.add("gone");
@@ -92,11 +92,13 @@ export class Joints {
     const places = new Map([...this.groups.keys()].filter((one) => one.startsWith("joint.")).map((one) => [one, this.place(one, degrees)]));
     for (const [name, [x, y]] of places) this.groups.get(name)?.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
     for (const [name, group] of this.groups) {
-      if (!name.startsWith("text.")) continue;
+      if (name.startsWith("joint.")) continue;
       const [joint, right, down] = this.data.labels[name] ?? ["", 0, 0];
       const place = places.get(joint);
       group.toggleAttribute("hidden", !place);
-      if (place) group.setAttribute("transform", `translate(${(place[0] + right).toFixed(2)} ${(place[1] + down).toFixed(2)})`);
+      // its own direction stays
+      const turned = group.getAttribute("transform")?.match(/rotate.*/)?.[0] ?? "";
+      if (place) group.setAttribute("transform", `translate(${(place[0] + right).toFixed(2)} ${(place[1] + down).toFixed(2)})${turned}`);
     }
     for (const { group, joints, own, end } of this.links) {
       own.setAttribute("d", `M${joints.map((one) => places.get(one)?.map((at) => at.toFixed(2)).join(" ")).join("L")}${end}`);

@@ -60,7 +60,7 @@ export class Live {
       const key = one.dataset.value ?? "";
       const [factor, added, rounding] = data.values[key];
       const value = calculation.values[data.calculation.values[key]];
-      one.textContent = this.moved ? printed((Math.abs(value) <= rounding ? 0 : value) * factor + added) : text;
+      one.textContent = this.moved ? printed((Math.abs(value) <= rounding ? 0 : value) * factor + added, one.closest(".cards") ? 4 : 6) : text;
     }
     return true;
   }

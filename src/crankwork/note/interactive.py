@@ -158,12 +158,10 @@ def controls(film: Animation, language: Language) -> list[str]:
     rates = "".join(
         f'<option value="{rate}"{" selected" if rate == "1" else ""}>{shown}×' for rate, shown in _RATES.items()
     )
-    views = ""
-    if film.views:
-        listed = f'<option value="">{words("every_view", language)}' + "".join(
-            f'<option value="{" ".join(f"{side:.1f}" for side in box)}">{html.escape(name)}' for name, box in film.views
-        )
-        views = f'<label>{words("view", language)} <select id="view">{listed}</select></label>'
+    listed = f'<option value="">{words("every_view", language)}' + "".join(
+        f'<option value="{" ".join(f"{side:.1f}" for side in box)}">{html.escape(name)}' for name, box in film.views
+    )
+    views = f'<label>{words("view", language)} <select id="view">{listed}</select></label>' if film.views else ""
     parts = [
         f'<label><input type="checkbox" data-choice="{html.escape(start)}"> {html.escape(capital(name))}</label>'
         for start, name in film.choices.items()

@@ -431,12 +431,11 @@ def _machine(film: Animation, language: Language, *, is_filed: bool) -> list[str
 
 def tables(results: Results, data: dict[str, Any], language: Language) -> list[dict[str, Any]]:
     """Return the columns of each table of a page."""
-    listed = []
-    for name, keys in results.tables.items():
-        known = [key for key in keys if key in data["columns"]]
-        if known:
-            listed.append({"n": translate(f"tables.{name}", language), "k": [data["axis"], *known]})
-    return listed
+    return [
+        {"n": translate(f"tables.{name}", language), "k": [data["axis"], *known]}
+        for name, keys in results.tables.items()
+        if (known := [key for key in keys if key in data["columns"]])
+    ]
 
 
 def _contents(drawn: dict[str, Drawing], language: Language) -> list[str]:

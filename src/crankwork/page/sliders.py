@@ -425,8 +425,7 @@ class LivePage:
         films = [film for film in self._films if film is not None]
         if all(is_same_film(films[0], film) for film in films[1:]) and len(films) in (0, len(self._films)):
             return False, None
-        shown = [film for film in (self._shown,) if film is not None]
-        joints = joints_of([*shown, *films[1:]], self._results)
+        joints = joints_of([*filter(None, (self._shown,)), *films[1:]], self._results)
         keys = [key for pair in (joints or {"joints": {}})["joints"].values() for key in pair]
         if not keys or any(not self.follows(key) and self.differs(key) for key in keys):
             return True, None
@@ -733,8 +732,12 @@ def joints_of(films: Sequence[Animation], results: Sequence[Results]) -> dict[st
             if corners is None:
                 return None
             links[part.name] = corners
-        elif kind == "text":
+        elif kind in ("text", "block"):
             offset = _label_offset(_track(part, film), tracks)
+            # a block follows its pin where its guide keeps its direction
+            turns = [item.turn for other in films for item in other.parts if item.name == part.name]
+            if kind == "block" and (not offset or np.ptp(np.concatenate(turns)) > _UNSEEN_PLACE):
+                return None
             labels |= {part.name: offset} if offset else {}
         elif kind not in ("joint", "force"):
             return None

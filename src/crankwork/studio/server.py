@@ -503,9 +503,8 @@ def _request(message: str) -> dict[str, Any] | None:
         and isinstance(fields, dict)
         and isinstance(data.get("wide", 0), int | float)
         and isinstance(listed, list)
-        and all(isinstance(name, str) for name in listed)
     )
-    return data if is_valid and all(isinstance(value, str) for value in fields.values()) else None
+    return data if is_valid and all(isinstance(text, str) for text in (*listed, *fields.values())) else None
 
 
 def _answer(state: ServerState, session: Session, request: dict[str, Any]) -> dict[str, Any]:
