@@ -93,10 +93,6 @@ def _positions(material: Material) -> Iterable[str]:
     return [*points, *named(material.columns, "link_angle", "slider_displacement")]
 
 
-def _accelerations(material: Material) -> Iterable[str]:
-    return named(material.columns, *_ACCELERATING, *(("coriolis_acceleration",) if material.full else ()))
-
-
 def _transfer(material: Material) -> Iterator[Block]:
     """Yield velocities of points and sliders and angular velocities of links, over that of the crank."""
     words = material.words
@@ -360,7 +356,9 @@ SECTIONS = (
         When(either(full, lacks(has_vector_equations)), (
             Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion", first=True),
         )), Head("motion_tables", 2),
-        Places("velocities", _MOVING), Places("accelerations", _accelerations),
+        Places("velocities", _MOVING),
+        Places("accelerations", lambda material: named(
+            material.columns, *_ACCELERATING, *(("coriolis_acceleration",) if material.full else ()))),
         _INSTANT_CENTRES, Shown(("centrodes", "paths", "points", "links")),
         Shown(("sliders",)),
     ), drawn),

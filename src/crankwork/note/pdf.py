@@ -289,7 +289,7 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
     if block.rows and not close:
         # numbers stand in the middle under a wide heading
         free = free_widths(block, size, widths)
-        sides = ", ".join(f"(left: 4pt, right: {4 + beside / 2:.1f}pt, y: {_INSET}pt)" for beside in free)
+        sides = ", ".join(f"(left: 4pt, right: {4 + width_left / 2:.1f}pt, y: {_INSET}pt)" for width_left in free)
         close = f", inset: ({sides},)"
     columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},){close}"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):

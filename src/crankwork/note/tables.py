@@ -52,20 +52,21 @@ def quantity_column(
 def quantity_columns(
     material: Material, keys: Iterable[str], columns: Mapping[str, Array], decimals: Mapping[str, int] | None = None
 ) -> list[Column]:
-    """Return columns of quantities; one less digit where another of the same unit has fewer decimals.
+    """Return columns of quantities; of a crank gear one less digit where another of the same unit has fewer decimals.
 
-    `decimals`: of some columns, as they are told.
+    `decimals`: of some columns, as they are stated.
     """
-    words, told, fewest = material.words, dict(decimals or {}), dict[str, int]()
+    words, chosen, fewest = material.words, dict(decimals or {}), dict[str, int]()
     shown: dict[str, list[float]] = {key: material.shown(key, columns[key]).tolist() for key in keys}
     needed = {key: words.decimals(values) for key, values in shown.items()}
     for key, count in needed.items():
         fewest[words.unit(key)] = min(count, fewest.get(words.unit(key), count))
     for key, count in needed.items():
-        if fewest[words.unit(key)] < count <= 2 * words.digits:
-            told.setdefault(key, count - 1)
+        # plans of linkages are drawn from all digits
+        if material.has_piston and fewest[words.unit(key)] < count <= 2 * words.digits:
+            chosen.setdefault(key, count - 1)
     return [
-        Column(words.titled(key), words.column_texts(values, decimals=told.get(key))) for key, values in shown.items()
+        Column(words.titled(key), words.column_texts(values, decimals=chosen.get(key))) for key, values in shown.items()
     ]
 
 

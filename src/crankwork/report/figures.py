@@ -294,11 +294,6 @@ def _paths(machine: Drawn) -> Iterable[Construction]:
         yield Construction(f"paths_{count}" if count > 1 else "paths", partial(path_figure, names=group), _drawn)
 
 
-def _driver(machine: Drawn) -> list[Sequence[str]]:
-    """Return coordinate and rates of the driver, its force or torque, its power."""
-    return [(key,) for key in machine.reached.columns if key.startswith("driver_")] if machine.style.period else []
-
-
 def _unbalanced(machine: Drawn) -> list[Sequence[str]]:
     """Return the forces and the couple of what moves along the line of stroke."""
     columns = machine.results.columns
@@ -485,7 +480,8 @@ def _by_owner(
 _GAS = _of_kinds("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
 # every figure, in the order in which they are told
 DIAGRAMS: tuple[Entry, ...] = (
-    Curves("driver", _driver, "tables.driver", _drawn),
+    Curves("driver", lambda machine: [(key,) for key in machine.reached.columns if key.startswith("driver_")]
+           if machine.style.period else [], "tables.driver", _drawn),
     Construction("position_plans", _positions, _drawn),
     Construction("velocity_plan", _plan(1), _drawn),
     Construction("acceleration_plan", _plan(2), _drawn),
