@@ -410,7 +410,9 @@ class TableSpec(NamedTuple):
             meant = f"{path.removesuffix(name)}{latin}"
             reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=meant)
             return
-        meant = functools.reduce(lambda text, words: text.replace(words[0], words[1]), _OF_BOOKS, name)
+        meant = name
+        for word, own_word in _OF_BOOKS:
+            meant = meant.replace(word, own_word)
         own = [key for key in self.keys if f"_{key}".endswith((f"_{meant}", f"_{name}"))]
         nearest = own[0] if len(own) == 1 else "" if own else nearest_name(name, tuple(self.keys))
         tables = {} if own or isinstance(value, dict) else {key: spec.kind for key, spec in reader.tables.items()}
