@@ -52,7 +52,13 @@ def test_the_bodies_are_those_of_a_crank_mechanism_by_hand():
 @pytest.mark.parametrize("key", ["joint_force_x.B", "total_torque", "reduced_inertia", "excess_work", "crank_speed"])
 def test_a_fault_of_a_millionth_is_noticed(monkeypatch, key):
     analyse = forms.analyse
-    values = forms.drawn(1, 0)
+    values = {
+        "crank": {"radius": "54 mm", "speed": "690 rpm"}, "rod": {"length": "366 mm", "mass": "4 kg",
+        "small_end_share": 0.3}, "piston": {"mass": "7 kg"}, "cylinder": {"bore": "132 mm", "compression_ratio": 13},
+        "gas": {"cycle": "360 deg", "pressures": "absolute", "valves": {"suction": "0.95 bar", "discharge": "2.5 bar",
+        "compression_exponent": 1.35, "expansion_exponent": 1.25}}, "table": {"step": "10 deg"},
+        "flywheel": {"fluctuation": 0.02, "inertia": "0.1 kg*m2"},
+    }  # fmt: skip
 
     def spoilt(machine):
         results = analyse(machine)

@@ -381,7 +381,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
 def _not_in_linkage(values: Mapping[str, Any], tables: Iterable[tuple[str, Any]]) -> list[str]:
     """Return what an engine states and its linkage has no keys for."""
     stated = {key for key, _ in tables}
-    names = [f"[{name}]" for name in ("bearings", "balance", "torsion", "test") if name in values.keys() - stated]
+    names = [f"[{name}]" for name in ("bearings", "balance", "test") if name in values.keys() - stated]
     names += ["[gas.combustion]"] if "combustion" in values.get("gas", {}) else []
     return names + (["rod.equivalent"] if "equivalent" in values["rod"] else [])
 
