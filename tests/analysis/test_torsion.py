@@ -1,6 +1,7 @@
 """Torsional vibration from machine files: against integration in time, limits and closed forms."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -122,6 +123,16 @@ def test_lengths_of_throws_are_those_of_their_formulas(formula):
     stiffness = 80e9 * math.pi * 0.1**4 / 32 / LENGTHS[formula]
     assert results["torsional_stiffness.crank"] == pytest.approx(stiffness, rel=1e-12)
     assert results["natural_frequency.1"] == pytest.approx(math.sqrt(2 * stiffness), rel=1e-12)
+
+
+def test_a_throw_is_weakest_where_its_section_is_whatever_its_diameter():
+    """A hollow pin of 90 mm beside a journal of 80 mm: 16 T D / (pi (D^4 - d^4)) counts, not the diameter."""
+    hollow = [f"torsion.throw_shaft.throw.pin_{key}" for key in ("diameter=90 mm", "bore=80 mm")]
+    example = Path(__file__).parents[2] / "examples" / "vibrating-crankshaft.toml"
+    results = crankwork.analyse(crankwork.read(example, overrides=hollow))
+    for throw in (1, 2, 3):
+        stress = 16 * results[f"vibration_torque.crank_{throw}"] * 0.09 / (math.pi * (0.09**4 - 0.08**4))
+        assert results[f"vibration_stress.crank_{throw}"] == pytest.approx(stress, rel=1e-12)
 
 
 def test_a_formula_with_charts_says_so_and_names_those_without():

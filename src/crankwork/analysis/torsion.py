@@ -449,16 +449,24 @@ def _section(shaft: ElasticShaft) -> tuple[TracedValue, TracedValue] | None:
     if shaft.diameter is not None and not sections:
         sections = [(shaft.diameter, shaft.bore, shaft.path)]
     if shaft.throw is not None:
-        pin, journal = shaft.throw.pin_diameter, shaft.throw.journal_diameter
-        name = "pin" if pin < journal else "journal"
-        size, bore = (getattr(shaft.throw, f"{name}_{part}") for part in ("diameter", "bore"))
+        throw = {
+            name: (getattr(shaft.throw, f"{name}_diameter"), getattr(shaft.throw, f"{name}_bore"))
+            for name in ("journal", "pin")
+        }
+        name = min(throw, key=lambda name: _modulus(*throw[name]))
+        size, bore = throw[name]
         path = f"{shaft.path}.throw.{name}"
         inner = given(f"{name}_bore", bore, f"{path}_bore") if bore else absent("shaft_bore")
         return given(f"{name}_diameter", size, f"{path}_diameter"), inner
     if not sections:
         return None
-    diameter, bore, path = min(sections, key=lambda item: (item[0] ** 4 - item[1] ** 4) / item[0])
+    diameter, bore, path = min(sections, key=lambda item: _modulus(*item[:2]))
     return section(path, diameter, bore)
+
+
+def _modulus(diameter: float, bore: float) -> float:
+    """Return what the section modulus of torsion is proportional to. [m3]"""
+    return (diameter**4 - bore**4) / diameter
 
 
 def damper_values(system: Vibrating, pi: float, radius: TracedValue | None) -> dict[str, TracedValue]:
