@@ -129,6 +129,14 @@ def test_a_decimal_comma_and_settings_are_taken(crankwork, machine_file):
     assert "  crank.radius  25 mm  the value rises through it" in answer.out
 
 
+def test_each_of_several_numbers_has_its_range(crankwork, machine_file):
+    """A rod of 4 radii and a stroke of 80 mm, each sought in a range of its own."""
+    asked = ("rod_ratio = 0.25", "stroke = 80 mm", "--for", "crank.radius", "--for", "rod.length")
+    ends = ("--from", "30 mm", "--to", "60 mm", "--from", "100 mm", "--to", "200 mm")
+    found = crankwork("solve", machine_file(), *asked, *ends, "--json").results["solutions"]
+    assert found == [{"crank.radius": pytest.approx(40.0), "rod.length": pytest.approx(160.0)}]
+
+
 def test_it_can_be_interrupted(crankwork, machine_file, monkeypatch):
     def interrupt(_share):
         raise KeyboardInterrupt
