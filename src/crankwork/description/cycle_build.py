@@ -187,10 +187,11 @@ def _assigned(table: Values, size: CylinderSize, angle: float) -> AssignedData:
 def _data(table: Values, cylinder: CylinderSize, angle: float, timing: Timing, pi: float) -> GrinevetskyData:
     """Return the data of a calculation by Grinevetsky and Mazing."""
     size: dict[str, Any] = {}
-    if "power" in table:
-        size["rounds_size"] = not (cylinder.bore or cylinder.stroke)
-    elif cylinder.bore and cylinder.stroke:
+    if cylinder.bore and cylinder.stroke:
         size |= {"bore": cylinder.bore, "stroke": cylinder.stroke, "lengths": cylinder.offset}
+    if "power" in table:
+        # of a file that is written out both stand beside it
+        size["rounds_size"] = bool(cylinder.bore) == bool(cylinder.stroke)
     loss = table["mechanical_loss"]
     return table.made(
         GrinevetskyData,

@@ -33,6 +33,8 @@ _SHOWN = (
 )  # fmt: skip
 # the laws of heats are fitted up to this temperature before combustion [K]
 _HOTTEST = 3000.0
+# between a size that is stated and one in whole millimetres [m]
+_SAME_SIZE = 1e-9
 _CONVERGED = 1e-13
 _MAX_PASSES = 200
 
@@ -393,11 +395,8 @@ def sized(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
     Losses depend on the mean piston speed, and that on the unknown stroke: the calculation is repeated until the stroke
     converges, and its last pass is the one that is shown.
     """
-    if data.bore is not None and data.stroke is not None:
-        stated = given("stroke", data.stroke, "crank.stroke")
-        worked.known["stroke"] = stated if data.lengths is None else _stroke_of(data.lengths)
-        _of_size(worked, data)
-        return []
+    if data.bore is not None and data.stroke is not None and not data.rounds_size:
+        return _of_stated_size(worked, data)
     stroke = 0.0
     for _ in range(_MAX_PASSES):
         following = _of_power(worked.again(""), data, stroke)
@@ -414,6 +413,9 @@ def sized(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
     millimetres = {key: exact_size[key].value * 1e3 for key in ("bore", "stroke")}
     if min(round(value) for value in millimetres.values()) == 0:
         raise CycleError(ErrorMessage("power_tiny", **millimetres))
+    stated_size = {"bore": data.bore, "stroke": data.stroke}
+    if any(one and abs(one - round(millimetres[key]) / 1e3) > _SAME_SIZE for key, one in stated_size.items()):
+        return _of_stated_size(worked, data)
     values: dict[str, float | str] = {}
     for key in ("bore", "stroke"):
         exact = worked.keep(exact_size[key].named(key))
@@ -422,6 +424,13 @@ def sized(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
         values |= {key: exact.value * 1e3, f"{key}_taken": taken * 1e3}
     _of_size(worked, data)
     return [("cycle_rounded_size", values)]
+
+
+def _of_stated_size(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
+    stated = given("stroke", data.stroke or 0.0, "crank.stroke")
+    worked.known["stroke"] = stated if data.lengths is None else _stroke_of(data.lengths)
+    _of_size(worked, data)
+    return []
 
 
 def _stroke_of(lengths: SliderCrank) -> TracedValue:
