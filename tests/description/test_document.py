@@ -202,6 +202,21 @@ def test_what_stands_where_a_table_belongs_has_no_values():
         Description("crank = 1")["crank.speed"]
 
 
+@for_each(
+    ("before", "key"),
+    [
+        ("guides.bed.through = 1\n", "guides.bed.angle"),
+        ("[gas]\npoints.a.angle = 1\nfactor = 1\n", "gas.points.a.pressure"),
+        ("[[loads]]\nbetween.a.b = 1\n[[loads]]\nbetween.a.b = 2\n", "loads[2].between.a.c"),
+    ],
+)
+def test_a_key_beside_dotted_keys_stands_in_their_table(before, key):
+    description = Description(before)
+    description[key] = 7
+    assert Description(description.dump())[key] == 7
+    assert description.dump().startswith(before)
+
+
 def test_a_setting_reaches_as_deep_as_a_file_does():
     description = Description("[chambers.cylinder.points.c]\npressure = '2 MPa'\n")
     laid = description.values_with(["chambers.cylinder.points.c.pressure=1.9 MPa"])

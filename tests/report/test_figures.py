@@ -63,6 +63,8 @@ def _of_a_linkage(name, results, drawn):
         expected = {"turning_moment", "speed"}
     if results.machine.rotor is not None:
         expected = {"balance_polygons", "unbalanced"}
+    elif results.machine.linkage is None and results.machine.clutch is not None:
+        expected = set()
     elif results.machine.linkage is None and "stages" in results.listings:
         # stages alone, of which no machine is drawn
         expected = {"stage_indicator"}

@@ -282,11 +282,13 @@ def _with_new(source: str, places: TomlPositions, key: str, value: Any) -> str: 
         return _with_block(source, key, value)
     if around in places.ends or not around:
         return _with_line(source, places, around, pair)
-    further, last_name = _split(around)
     if any(pair_key.startswith(f"{around}.") for pair_key in places.pairs) and around not in _tables(places):
-        # a table of dotted keys only
-        return _with_line(source, places, further, f"{key_text(last_name)}.{pair}")
-    if not further or around in places.lines:
+        # a table of dotted keys only, perhaps in another such table
+        while around and around not in places.ends:
+            around, name = _split(around)
+            pair = f"{key_text(name)}.{pair}"
+        return _with_line(source, places, around, pair)
+    if "." not in around or around in places.lines:
         return _with_block(source, around, {name: value})
     return with_value(source, around, {name: value})
 
