@@ -414,7 +414,7 @@ def sized(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
     if min(round(value) for value in millimetres.values()) == 0:
         raise CycleError(ErrorMessage("power_tiny", **millimetres))
     stated_size = {"bore": data.bore, "stroke": data.stroke}
-    if any(one and abs(one - round(millimetres[key]) / 1e3) > _SAME_SIZE for key, one in stated_size.items()):
+    if any(size and abs(size - round(millimetres[key]) / 1e3) > _SAME_SIZE for key, size in stated_size.items()):
         return _of_stated_size(worked, data)
     values: dict[str, float | str] = {}
     for key in ("bore", "stroke"):
