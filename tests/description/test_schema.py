@@ -185,6 +185,7 @@ def _comments():
 GOES_WITH = {
     "piston_rod_diameter": {"[gas]": '[gas]\nback_pressure = "0.1 MPa"'},
     "counterweight": {"rotating_share": "", "reciprocating_share": ""},
+    "power": {"bore": "", "radius": ""},
 }
 
 
