@@ -112,7 +112,7 @@ def test_names_are_printed_as_they_are_written():
         "position_plans": ("P^{2}", "c_{1}"), "velocity_plan": ("v P^{2} =", "v c_{1}P^{2} ="),
         "force_plans": ("R P^{2} =",), "joint_forces": ("R P^{2}",), "film": ("P^{2}", "c_{1}"),
         "sliders": ("3 – s$l{i}",), "links": ("2 – r/{d}",),
-        "chambers": ("gas force, I",), "centrodes": ("P^{2}", "centrode of link 2"),
+        "chambers": ("gas force, I", "I – h^{a}"), "centrodes": ("P^{2}", "centrode of link 2"),
         "zhukovsky_lever": ("pP^{2} = ",),
         "linkage-kinematics": ("2 – r/{d}", "c_{1}"), "linkage-forces": ("R P^{2}",),
     }.items():  # fmt: skip

@@ -185,8 +185,8 @@ def link_label(link: str, language: Language) -> str:
 def link_numbers(results: Results | None) -> dict[str, str]:
     """Return the numbers of the moving links of a linkage by name, none of another machine.
 
-    Chambers and vessels whose names are words have Roman numbers. A link that tells apart joints of one point has its
-    number there too: `A_rod` is `A_2`.
+    Chambers and vessels whose names are words, none of them that of a link, have Roman numbers. A link that tells apart
+    joints of one point has its number there too: `A_rod` is `A_2`.
     """
     linkage = results.machine.linkage if results is not None else None
     analysed = structure(linkage)[0] if linkage else None
@@ -196,6 +196,7 @@ def link_numbers(results: Results | None) -> dict[str, str]:
     links = ((point, link) for point, owners in linkage.owners.items() for link in owners if link in numbers)
     held = (results.machine.chambers, results.machine.vessels) if results is not None else ()
     words = {name: ROMAN[k] for parts in held for k, name in enumerate(parts, 1) if len(name) > 2 and k < len(ROMAN)}
+    words = {} if words.keys() & numbers.keys() else words
     return words | {f"{point}_{link}": f"{point}_{numbers[link]}" for point, link in links} | numbers
 
 

@@ -650,8 +650,10 @@ def curves(
         graph.y_title(_title(quantities, style))
         top += graph.box.height + _GAP
     dead = "; ".join(f"{number(round(limit, 2), style.language)}°" for limit in style.limits)
-    owners = {key_of(row.key).owner for panel in all_panels for row in panel}
-    known = {number: name for number, name in enumerate(style.links, 1) if name in owners and number_of(name) != name}
+    owners = dict.fromkeys(key_of(row.key).owner.partition(".")[0] for panel in all_panels for row in panel)
+    # links in their order, then chambers and vessels, which have Roman numbers
+    names = [*(name for name in style.links if name in owners), *(name for name in owners if name not in style.links)]
+    known = {number_of(name): name for name in names if number_of(name) != name and "_" not in number_of(name)}
     zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
     unnamed = [panel[0] for panel in sets if len(panel) == 1 and not _is_on_axis(panel, style)]
     remarks = [

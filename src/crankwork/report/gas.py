@@ -16,9 +16,20 @@ from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import number_of
-from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
+from crankwork.report.look import Drawn, axis_title, displayed_values, key_of_links, math_symbol, quantity_of
 from crankwork.show.canvas import WIDER, Canvas, current_layout, plain, points_per_mm, text_width
-from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, true_slices
+from crankwork.show.chart import (
+    ChartBox,
+    Graph,
+    Row,
+    limits,
+    over_cycle,
+    round_ticks,
+    sheet,
+    small_text,
+    true_slices,
+    write_remark,
+)
 from crankwork.show.label_placement import label_marks, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, STYLES, Drawing
 
@@ -286,7 +297,8 @@ def willans(test: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     ends = np.array([-loss, 0.0, float(np.max(power))])
     line = idle * (1 + ends / loss)
     paper, box = sheet(_INDICATOR)
-    across, up = limits(ends), limits(rate, line)
+    # room for names left of the dashed line
+    across, up = limits(2 * ends[:1], ends), limits(rate, line)
     graph = Graph(paper, box, across, up, test.language)
     graph.frame(round_ticks(*across), round_ticks(*up))
     paper.segments(np.array([(*graph.point(0.0, up[0]), *graph.point(0.0, up[1]))]), width=0.45)
@@ -300,13 +312,20 @@ def willans(test: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     return paper, {"willans": graph}
 
 
+def _number(chamber: str) -> str:
+    """Return the Roman number of a chamber, or its name; a link of the same name has a number of its own."""
+    return chamber if number_of(chamber).isdecimal() else number_of(chamber)
+
+
 def chamber_indicator(machine: Drawn) -> Drawing:
     """Return pressure over volume of every chamber."""
     results = machine.results
     # tables of a law over time go by time
     factor = results.period / 360.0 if results.period else 1.0
-    curves = {plain(name): (*diagram[:2], diagram.degrees * factor) for name, diagram in indicators(results).items()}
-    return _indicators(machine, curves, "indicator")
+    diagrams = indicators(results)
+    curves = {plain(name): (*diagram[:2], diagram.degrees * factor) for name, diagram in diagrams.items()}
+    known = {_number(name): name for name in diagrams if _number(name) != name} if len(diagrams) > 1 else {}
+    return _indicators(machine, curves, "indicator", "; ".join(key_of_links(known, known, machine.language)))
 
 
 def stage_indicator(machine: Drawn) -> Drawing:
@@ -324,7 +343,9 @@ def _moments(across: Array, up: Array) -> tuple[float, ...]:
     return tuple(abs(float(np.trapezoid(part, x))) for part in (y, x * y, y * y))
 
 
-def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array | None]], title: str) -> Drawing:
+def _indicators(
+    machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array | None]], title: str, remark: str = ""
+) -> Drawing:
     """Return closed curves of pressure over volume by name, with the angles of their points. [SI]"""
     style, volume, pressure = machine.style, quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
     drawn = {
@@ -336,7 +357,7 @@ def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array |
         sizes = (across.min(), across.max(), up.min(), up.max(), *_moments(across, up))
         equal.setdefault(tuple(round(float(size), 6) + 0.0 for size in sizes), []).append(name)
     rows = (
-        [Row(", ".join(map(number_of, names)), STYLES[k % 4]) for k, names in enumerate(equal.values())]
+        [Row(", ".join(map(_number, names)), STYLES[k % 4]) for k, names in enumerate(equal.values())]
         if len(drawn) > 1
         else []
     )
@@ -350,6 +371,7 @@ def _indicators(machine: Drawn, curves: Mapping[str, tuple[Array, Array, Array |
         graph.curve(first, across, up, STYLES[k % 4], angles=angles)
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
+    write_remark(paper, remark)
     return paper.drawing(translate(f"figures.{title}", style.language), style.language)
 
 

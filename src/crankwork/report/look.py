@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -95,8 +95,11 @@ def math_symbol(sign: str, power: str = "") -> str:
     return plain(f"{base} {index}") + (f"^{{{power[1:]}}}" if power else "")
 
 
-def key_of_links(names: Mapping[int, str], numbers: Iterable[int], language: Language) -> list[str]:
-    """Return the names of the links with these numbers on a plan, since tables use names."""
+_Number = TypeVar("_Number", int, str)
+
+
+def key_of_links(names: Mapping[_Number, str], numbers: Iterable[_Number], language: Language) -> list[str]:
+    """Return the names of the links or chambers with these numbers in a figure, since tables use names."""
     shown = {number: printable(link_label(names[number], language), 20) for number in numbers if number in names}
     return [f"{number} – {plain(name)}" for number, name in shown.items() if name != str(number)]
 
